@@ -66,18 +66,23 @@ struct Arguments {
   bool environment_json = false;
 };
 
-void add_threads(CLI::App* command, int& threads, const std::string& unless_given) {
+constexpr const char* kBuilding = "for building an operator";
+constexpr const char* kBuildingAndCase = "for operators, up to 4 for a case";
+
+void add_threads(CLI::App* command, int& threads, const std::string& what,
+                 const std::string& unless_given) {
   command
       ->add_option("--threads", threads,
-                   "for building an operator (default: " + unless_given + "); same bits with any")
+                   what + " (default: " + unless_given + "); same bits with any")
       ->check(CLI::Range(1, 1024));
 }
 
-void add_operator(CLI::App* command, OperatorArguments& arguments) {
+void add_operator(CLI::App* command, OperatorArguments& arguments,
+                  const char* threads_are = kBuilding) {
   command->add_option("--cache", arguments.cache,
                       "operator cache (default: the user's cache folder)");
   command->add_flag("--no-cache", arguments.no_cache, "neither read nor write cached operators");
-  add_threads(command, arguments.threads, "all cores");
+  add_threads(command, arguments.threads, threads_are, "all cores");
 }
 
 void add_init(CLI::App& app, Arguments& a, ExitCode& code) {
@@ -145,7 +150,7 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
       ->excludes(scene)
       ->trigger_on_parse();
   command->add_option("-o,--output", a.run.output, "result folder (default SCENE-result)");
-  add_operator(command, a.run.op);
+  add_operator(command, a.run.op, kBuildingAndCase);
   command->add_flag("--wide", a.run.wide, "the table with all its columns, however wide");
   command->add_flag("--trace", a.run.trace,
                     "how each load step was solved, iteration by iteration; also in trace.jsonl");
@@ -263,20 +268,20 @@ void add_report(CLI::App& app, Arguments& a, ExitCode& code) {
 }
 
 /// What those have that other programs talk to.
-void add_descriptors(CLI::App* command, WorkerArguments& arguments) {
+void add_descriptors(CLI::App* command, WorkerArguments& arguments, const char* threads_are) {
   command->add_option("--requests", arguments.requests, "descriptor to read from")->required();
   command->add_option("--replies", arguments.replies, "descriptor to write to")->required();
   command->add_option("--cache", arguments.cache, "operator cache");
   command->add_option("--node-cache", arguments.node_cache,
                       "copies of cached operators on this host's own disk");
   command->add_option("--cache-size", arguments.cache_size, "bytes");
-  add_threads(command, arguments.threads, "1");
+  add_threads(command, arguments.threads, threads_are, "1");
 }
 
 void add_what_if(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "what-if", "answer the newest question about a scene (schemas/what_if_protocol.md)");
-  add_descriptors(command, a.worker);
+  add_descriptors(command, a.worker, kBuildingAndCase);
   command->footer("Example: faultsim what-if --requests 0 --replies 1 <questions >answers");
   command->callback([&] { code = what_if_command(a.worker); });
 }
@@ -284,7 +289,7 @@ void add_what_if(CLI::App& app, Arguments& a, ExitCode& code) {
 void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command =
       app.add_subcommand("worker", "serve cases to faultsweep (schemas/worker_protocol.md)");
-  add_descriptors(command, a.worker);
+  add_descriptors(command, a.worker, kBuilding);
   command->add_option("--memory-limit", a.worker.memory_limit, "bytes of private memory");
   command->footer("Example: faultsim worker --requests 0 --replies 1 <requests >replies");
   command->callback([&] { code = worker_command(a.worker); });

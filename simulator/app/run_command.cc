@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "simulator/app/trace_text.h"
 #include "simulator/common/machine.h"
 #include "simulator/common/text.h"
+#include "simulator/common/thread_team.h"
 #include "simulator/coupled/start_hypre.h"
 #include "simulator/coupled_case/coupled_case.h"
 #include "simulator/coupled_case/path_choice.h"
@@ -105,6 +107,8 @@ ExitCode run_command(const RunArguments& arguments) {
       std::cerr << "path: " << to_string(choice.path) << ", " << choice.reason << "\n";
   }
   RunContext context = context_of(arguments.op, monitor);
+  ThreadTeam team(std::min(context.n_threads, kMostThreadsOfCase));
+  context.team = &team;
   std::unique_ptr<CoupledCase> coupled;
   if (is_coupled) {
     coupled =

@@ -57,6 +57,7 @@ class StopToken {
 };
 
 class FactorAnalysis;  // linalg/cholesky.h
+class ThreadTeam;      // thread_team.h
 
 /// What a piece of work is given beside its data; nothing of it changes a bit of the result. All
 /// that differs between two simulations in one process is here or in their data.
@@ -76,6 +77,7 @@ struct RunContext {
   Monitor* monitor = nullptr;  ///< null: nobody listens. Called by the thread that was called.
   StopToken stop;
   int n_threads = 1;                   ///< of a factorisation, at most.
+  ThreadTeam* team = nullptr;          ///< that shares the work of a case; null: one thread.
   FactorAnalysis* analysis = nullptr;  ///< kept by whoever factorises several alike matrices.
 };
 

@@ -7,8 +7,12 @@
 
 namespace faultsim {
 
-ContactProblem::ContactProblem(const FaultOperator& fault_operator, const ContactLaws& contact_laws)
-    : op(fault_operator), compliance(*fault_operator.compliance), laws(contact_laws) {
+ContactProblem::ContactProblem(const FaultOperator& fault_operator, const ContactLaws& contact_laws,
+                               ThreadTeam* shared_by)
+    : op(fault_operator),
+      team(shared_by),
+      compliance(*fault_operator.compliance),
+      laws(contact_laws) {
   const auto& geometry = op.geometry;
   const std::size_t n = geometry.nodes.size();
   FAULTSIM_DEMAND(contact_laws.size() == n, "laws for ", contact_laws.size(), " of ", n, " nodes");
@@ -47,7 +51,7 @@ void ContactProblem::subtract_product(const Eigen::VectorXd& jump, std::span<con
   for (int j = 0; j < n_dofs(); ++j) {
     if (jump[j] != 0) columns_.push_back(j);
   }
-  compliance.subtract_product(columns_, jump, inverse_area, rows, traction);
+  compliance.subtract_product(columns_, jump, inverse_area, rows, traction, team);
 }
 
 bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int k) {

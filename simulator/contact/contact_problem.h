@@ -23,7 +23,8 @@ struct ContactNode {
 class ContactProblem {
  public:
   /// @pre sizes agree, normal dofs exist, areas > 0 (InternalError).
-  ContactProblem(const FaultOperator& fault_operator, const ContactLaws& contact_laws);
+  ContactProblem(const FaultOperator& fault_operator, const ContactLaws& contact_laws,
+                 ThreadTeam* shared_by = nullptr);
   ContactProblem(const ContactProblem&) = delete;  // nodes point to its laws
 
   int n_nodes() const { return static_cast<int>(nodes.size()); }
@@ -42,6 +43,7 @@ class ContactProblem {
   }
 
   const FaultOperator& op;
+  ThreadTeam* const team;  ///< that shares long products; null: none. Bits do not depend on it.
   const Compliance& compliance;  ///< op's H.
   NodeLaws laws;
   std::vector<ContactNode> nodes;

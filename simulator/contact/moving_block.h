@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "simulator/contact/contact_problem.h"
@@ -12,10 +13,12 @@ namespace faultsim {
 /// 0 where a node has fewer. G grows as nodes begin to move and is read many times for each entry
 /// of H gathered, so it is kept short: by symmetry of each pair of nodes only H(earlier, later), as
 /// integers of 16 bits. That will do for a tangent, whose equations are measured in double
-/// precision.
+/// precision. The problem's team of threads shares what there is to do; bits do not depend on it.
 class MovingBlock {
  public:
   static constexpr int kDofs = 3;  ///< per node.
+  static constexpr std::size_t kShared =
+      1000;  ///< places from which on it pays to share a product.
 
   explicit MovingBlock(const ContactProblem& problem);
 
@@ -37,6 +40,9 @@ class MovingBlock {
   void multiply(const std::vector<int>& places, const Eigen::VectorXf& x, Eigen::VectorXf& z) const;
 
  private:
+  using Columns = std::array<const double*, kDofs>;  ///< of H, of a node's dofs; null: no dof.
+  void gather(int place, const Columns& columns);
+
   const ContactProblem& problem_;
   std::vector<int> node_;   ///< per place.
   std::vector<int> place_;  ///< per node of the problem.

@@ -88,10 +88,11 @@ struct SubStepTrace {
   const char* verdict = "";      ///< how the sub-step ended: "accepted", "not shown stable", ...
 };
 
-/// Who looks on while a contact problem is solved. The answer does not depend on it.
+/// Who looks on while a contact problem is solved, and who helps. The answer does not depend on it.
 struct ContactWatch {
   StopToken stop;  ///< asked per linear solve: Interrupted.
   std::function<void(const SubStepTrace&)> tried = nullptr;  ///< after each try at a sub-step.
+  ThreadTeam* team = nullptr;  ///< that shares the work; null: one thread.
 };
 
 /// "38 iterations over 12 active sets, residual 7.1 tolerances at the end and 1.4 at best

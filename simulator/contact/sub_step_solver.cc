@@ -13,7 +13,7 @@ SubStepSolver::SubStepSolver(const FaultOperator& op, const ContactLaws& laws,
                              const ContactOptions& options, const ContactWatch& watch)
     : options_(options),
       watch_(watch),
-      problem_(op, laws),
+      problem_(op, laws, watch.team),
       scalar_(problem_, options_, watch.stop),
       newton_(problem_, options_, watch.stop),
       stability_(problem_) {}

@@ -9,14 +9,25 @@ namespace {
 
 constexpr int kLanes = ShortColumns::kLanes;
 constexpr int kScaled = ShortColumns::kScaled;
+constexpr std::size_t kLine = 64;                         // bytes that are fetched at once
+constexpr int kBlock = ShortColumns::kColumns * kScaled;  // entries
 using Triple = ShortColumns::Triple;
+using Lanes = ShortColumns::Lanes;
 
-/// Column after column of so many blocks of kScaled rows.
+/// Some blocks of kScaled rows, in each of them column after column.
 struct ThreeColumns {
   const std::int16_t* entries;
   const Triple* scales;
   int n_blocks;
+  const std::int16_t* next;  ///< entries of columns that will be asked for next,
+  int n_next;                ///< and of how many blocks.
 };
+
+[[gnu::always_inline]] inline void fetch(const void* first, std::size_t n_bytes) {
+  constexpr int kToRead = 0, kToSecondCache = 2;
+  for (std::size_t i = 0; i < n_bytes; i += kLine)
+    __builtin_prefetch(static_cast<const char*>(first) + i, kToRead, kToSecondCache);
+}
 
 float sum_of(const std::array<float, kLanes>& lanes) {
   float sum = 0;
@@ -32,15 +43,16 @@ float sum_of(const std::array<float, kLanes>& lanes) {
 }
 
 /// No loop here has a sum over its rounds, so compilers make vectors of them without a change.
-[[gnu::always_inline]] inline Triple multiply_lanes(const ThreeColumns& c, const Triple& f,
-                                                    const float* __restrict x,
-                                                    float* __restrict y) {
-  const std::ptrdiff_t stride = static_cast<std::ptrdiff_t>(kScaled) * c.n_blocks;
-  const std::int16_t *short0 = c.entries, *short1 = short0 + stride, *short2 = short1 + stride;
-  std::array<float, kLanes> sum0{}, sum1{}, sum2{};
+[[gnu::always_inline]] inline void multiply_lanes(const ThreeColumns& c, const Triple& f,
+                                                  const float* __restrict x, float* __restrict y,
+                                                  Lanes& lanes) {
+  const std::int16_t* entries = c.entries;
+  auto [sum0, sum1, sum2] = lanes.sum;
   for (int block = 0; block < c.n_blocks; ++block) {
     const auto [s0, s1, s2] = c.scales[block];
     const float f0 = s0 * f[0], f1 = s1 * f[1], f2 = s2 * f[2];
+    if (block < c.n_next) fetch(c.next + block * kBlock, sizeof(std::int16_t) * kBlock);
+    const std::int16_t *short0 = entries, *short1 = short0 + kScaled, *short2 = short1 + kScaled;
     float c0[kScaled], c1[kScaled], c2[kScaled];
     for (int r = 0; r < kScaled; ++r) c0[r] = short0[r];
     for (int r = 0; r < kScaled; ++r) c1[r] = short1[r];
@@ -51,23 +63,23 @@ float sum_of(const std::array<float, kLanes>& lanes) {
       sum1[i] += s1 * dot(c1, x, i);
       sum2[i] += s2 * dot(c2, x, i);
     }
-    short0 += kScaled, short1 += kScaled, short2 += kScaled, x += kScaled, y += kScaled;
+    entries += kBlock, x += kScaled, y += kScaled;
   }
-  return {sum_of(sum0), sum_of(sum1), sum_of(sum2)};
+  lanes.sum = {sum0, sum1, sum2};
 }
 
-[[gnu::target("avx512f,avx512bw,prefer-vector-width=512"), gnu::optimize("O3")]] Triple
-multiply_512(const ThreeColumns& c, const Triple& f, const float* x, float* y) {
-  return multiply_lanes(c, f, x, y);
+[[gnu::target("avx512f,avx512bw,prefer-vector-width=512"), gnu::optimize("O3")]] void multiply_512(
+    const ThreeColumns& c, const Triple& f, const float* x, float* y, Lanes& lanes) {
+  multiply_lanes(c, f, x, y, lanes);
 }
-[[gnu::target("avx2"), gnu::optimize("O3")]] Triple multiply_256(const ThreeColumns& c,
-                                                                 const Triple& f, const float* x,
-                                                                 float* y) {
-  return multiply_lanes(c, f, x, y);
+[[gnu::target("avx2"), gnu::optimize("O3")]] void multiply_256(const ThreeColumns& c,
+                                                               const Triple& f, const float* x,
+                                                               float* y, Lanes& lanes) {
+  multiply_lanes(c, f, x, y, lanes);
 }
-[[gnu::optimize("O3")]] Triple multiply_128(const ThreeColumns& c, const Triple& f, const float* x,
-                                            float* y) {
-  return multiply_lanes(c, f, x, y);
+[[gnu::optimize("O3")]] void multiply_128(const ThreeColumns& c, const Triple& f, const float* x,
+                                          float* y, Lanes& lanes) {
+  multiply_lanes(c, f, x, y, lanes);
 }
 
 }  // namespace
@@ -76,14 +88,13 @@ ShortColumns::ShortColumns(const Eigen::MatrixX3f& columns)
     : rows_(static_cast<int>(columns.rows())) {
   constexpr float kLargest = 32767;
   constexpr float kTiny = 1e-30F;  // whose inverse is no number; counts as 0
-  const auto stride = padded(rows_);
-  entries_.assign(static_cast<std::size_t>(kColumns * stride), 0);
+  entries_.assign(static_cast<std::size_t>(kColumns * padded(rows_)), 0);
   for (int first = 0; first < rows_; first += kScaled) {
     const int n = std::min(kScaled, rows_ - first);
     Triple scales;
     for (int c = 0; c < kColumns; ++c) {
       const float* from = columns.col(c).data() + first;
-      std::int16_t* to = entries_.data() + c * stride + first;
+      std::int16_t* to = entries_.data() + kColumns * first + c * kScaled;
       const float largest = columns.col(c).segment(first, n).cwiseAbs().maxCoeff();
       const float inverse = largest > kTiny ? kLargest / largest : 0;
       scales[static_cast<std::size_t>(c)] = largest > kTiny ? largest / kLargest : 0;
@@ -94,15 +105,40 @@ ShortColumns::ShortColumns(const Eigen::MatrixX3f& columns)
   }
 }
 
+Triple ShortColumns::Lanes::total() const {
+  return {sum_of(sum[0]), sum_of(sum[1]), sum_of(sum[2])};
+}
+
+void ShortColumns::Lanes::fetch() const { faultsim::fetch(sum.data(), sizeof sum); }
+
+void ShortColumns::multiply_blocks_by(VectorSet set, int first, int last, const Triple& f,
+                                      const float* x, float* y, Lanes& lanes,
+                                      const ShortColumns& next) const {
+  const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(kScaled) * first;
+  const int n_next = std::clamp(next.n_blocks() - first, 0, last - first);
+  const ThreeColumns c{entries_.data() + kColumns * row, scales_.data() + first, last - first,
+                       n_next > 0 ? next.entries_.data() + kColumns * row : nullptr, n_next};
+  if (set == VectorSet::avx512) return multiply_512(c, f, x + row, y + row, lanes);
+  return set == VectorSet::avx2 ? multiply_256(c, f, x + row, y + row, lanes)
+                                : multiply_128(c, f, x + row, y + row, lanes);
+}
+
+void ShortColumns::multiply_blocks(int first, int last, const Triple& f, const float* x, float* y,
+                                   Lanes& lanes, const ShortColumns& next) const {
+  static const VectorSet set = vector_set_of_processor();
+  multiply_blocks_by(set, first, last, f, x, y, lanes, next);
+}
+
 Triple ShortColumns::multiply_by(VectorSet set, const Triple& f, const float* x, float* y) const {
-  const ThreeColumns c{entries_.data(), scales_.data(), static_cast<int>(scales_.size())};
-  if (set == VectorSet::avx512) return multiply_512(c, f, x, y);
-  return set == VectorSet::avx2 ? multiply_256(c, f, x, y) : multiply_128(c, f, x, y);
+  Lanes lanes;
+  multiply_blocks_by(set, 0, n_blocks(), f, x, y, lanes, {});
+  return lanes.total();
 }
 
 Triple ShortColumns::multiply(const Triple& f, const float* x, float* y) const {
-  static const VectorSet set = vector_set_of_processor();
-  return multiply_by(set, f, x, y);
+  Lanes lanes;
+  multiply_blocks(0, n_blocks(), f, x, y, lanes, {});
+  return lanes.total();
 }
 
 void ShortColumns::combine(const Triple& f, Eigen::VectorXf& sum) const {

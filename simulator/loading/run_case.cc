@@ -84,7 +84,7 @@ class CaseRun {
 };
 
 ContactWatch CaseRun::watch() const {
-  ContactWatch watch{context_.stop};
+  ContactWatch watch{.stop = context_.stop, .team = context_.team};
   if (probe_.tried)
     watch.tried = [this](const SubStepTrace& part) { probe_.tried(at_->step, part); };
   return watch;

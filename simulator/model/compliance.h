@@ -8,6 +8,8 @@
 
 namespace faultsim {
 
+class ThreadTeam;  // common/thread_team.h
+
 /// Rows first … first + n − 1.
 struct RowRange {
   int first, n;
@@ -27,9 +29,10 @@ class Compliance {
   virtual double diagonal(int j) const = 0;
   /// traction −= A⁻¹ Σ_j H e_j g_j over the jumps listed, summed in their order; the others count
   /// as 0. In the rows given only, with the bits that they have when all are.
+  /// @param team  shares the rows where they are many; the bits are the same with any, or none.
   void subtract_product(std::span<const int> active, const Eigen::VectorXd& jump,
                         const Eigen::VectorXd& inverse_area, std::span<const RowRange> rows,
-                        Eigen::VectorXd& traction) const;
+                        Eigen::VectorXd& traction, ThreadTeam* team = nullptr) const;
   /// All of H as a matrix, n x n, for files, diagnosis and tests: null where it cannot be had.
   virtual const double* matrix_entries() const { return nullptr; }
 };

@@ -1,11 +1,13 @@
 #include "simulator/what_if/resident_case.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/thread_team.h"
 #include "simulator/operators/prepare_operator.h"
 #include "simulator/simulation/loaded_scene.h"
 
@@ -14,7 +16,7 @@ namespace faultsim {
 /// What the thread and those who ask share: under the mutex; `simulation` and `taken_scene` are the
 /// thread's.
 struct ResidentCase::Impl {
-  explicit Impl(int threads) : n_threads(threads) {}
+  explicit Impl(int threads) : n_threads(threads), team(std::min(threads, kMostThreadsOfCase)) {}
   void live();
   bool take_next();
   void hold(long question);
@@ -31,6 +33,7 @@ struct ResidentCase::Impl {
   }
 
   const int n_threads;
+  ThreadTeam team;  ///< of the thread, for cases.
   Simulation simulation;
   LoadedScene taken_scene;  ///< until it is held.
   Listener listener = [](long, const QuestionProgress&) {};
@@ -148,6 +151,7 @@ std::shared_ptr<const ShownCase> ResidentCase::Impl::run() {
   };
   RunContext context;
   context.stop = StopToken(stop);
+  context.team = &team;
   shown->result = simulation.run(context, watch);
   return shown;
 }

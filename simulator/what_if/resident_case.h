@@ -49,7 +49,8 @@ struct QuestionProgress {
 class ResidentCase {
  public:
   /// @param cache      where operators are looked for and kept; an empty folder: nowhere.
-  /// @param n_threads  for building one.
+  /// @param n_threads  for building one, and for a case as many of them as it is worth
+  /// (kMostThreadsOfCase); bits do not depend on them.
   explicit ResidentCase(const CachePolicy& cache, int n_threads = 1);
   ~ResidentCase();  ///< ends what is under way.
   ResidentCase(const ResidentCase&) = delete;

@@ -2,18 +2,19 @@
 // the tolerance, step by step as load grows, turns and comes back.
 #include <gtest/gtest.h>
 
+#include "simulator/common/thread_team.h"
 #include "tests/unit/contact/contact_fixture.h"
 
 namespace faultsim {
 namespace {
 
 struct LargeFault {
-  LargeFault() {
+  explicit LargeFault(int n = 260) : n_nodes(n) {
     set_h(op, 1e8 * half_space_matrix(op, 1, 0.2));
     const int dofs = op.geometry.n_dofs;
     Eigen::VectorXd start(dofs), change(dofs), across = Eigen::VectorXd::Zero(dofs);
-    for (int k = 0; k < kNodes; ++k) {
-      const double x = (k - 0.5 * kNodes) / (0.5 * kNodes);
+    for (int k = 0; k < n_nodes; ++k) {
+      const double x = (k - 0.5 * n_nodes) / (0.5 * n_nodes);
       start.segment<3>(3 * k) = Eigen::Vector3d(-1e7, 1e6 * x, 2e6);
       change.segment<3>(3 * k) = Eigen::Vector3d(4e6, 1e6, 6e6 * (1 - x * x));
       across[3 * k + 1] = 2e6 * (1 - x);
@@ -22,8 +23,8 @@ struct LargeFault {
       locked.push_back(start + factor * change + factor * factor * across);
     }
   }
-  static constexpr int kNodes = 260;
-  FaultOperator op = make_operator(kNodes, 2, Eigen::VectorXd::Ones(kNodes));
+  int n_nodes;
+  FaultOperator op = make_operator(n_nodes, 2, Eigen::VectorXd::Ones(n_nodes));
   const ContactLaws laws = same_law(op, {WeakeningLaw::angle, 0, std::atan(0.5), std::atan(0.5)});
   std::vector<Eigen::VectorXd> locked;
 };
@@ -65,6 +66,24 @@ TEST(LargeSet, SlidesAtItsLimitTurnsAndComesBack) {
   EXPECT_GT(krylov, 10);      // so GMRES was at work,
   EXPECT_LT(krylov, 330);     // with a factor that helps,
   EXPECT_LT(iterations, 45);  // and Newton does not mind
+}
+
+TEST(LargeSet, GivesTheSameBitsByAnyNumberOfThreads) {
+  const LargeFault fault(420);
+  ContactSolver alone(fault.op, fault.laws, {});
+  const std::vector<ContactState> expected = history(fault, alone);
+  for (const int n_threads : {2, 3}) {
+    ThreadTeam team(n_threads);
+    ContactWatch watch;
+    watch.team = &team;
+    ContactSolver shared(fault.op, fault.laws, {}, watch);
+    const std::vector<ContactState> states = history(fault, shared);
+    EXPECT_GT(team.n_works(), 50);
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      EXPECT_EQ(states[i].jump, expected[i].jump) << i;
+      EXPECT_EQ(states[i].traction, expected[i].traction) << i;
+    }
+  }
 }
 
 // What one history leaves in a solver has no say in the next.

@@ -66,6 +66,22 @@ TEST(ShortColumns, GiveTheSameBitsByEveryWidth) {
   }
 }
 
+TEST(ShortColumns, GiveTheSameBitsBlockAfterBlock) {
+  for (const int rows : {1, 64, 65, 300}) {
+    const ShortColumns columns(falling(rows));
+    Vectors whole(rows), parts = whole;
+    const Triple expected = columns.multiply(kFactors, whole.x.data(), whole.y.data());
+    ShortColumns::Lanes lanes;
+    for (int first = 0, last = 0; first < columns.n_blocks(); first = last) {
+      last = std::min(first + 2, columns.n_blocks());
+      columns.multiply_blocks(first, last, kFactors, parts.x.data(), parts.y.data(), lanes,
+                              columns);
+    }
+    EXPECT_EQ(lanes.total(), expected) << rows;
+    EXPECT_EQ(parts.y, whole.y) << rows;
+  }
+}
+
 TEST(ShortColumns, HoldTheirLargestEntriesOfEachScale) {
   Eigen::MatrixX3f columns = Eigen::MatrixX3f::Zero(130, 3);
   columns(3, 0) = 5e7F;

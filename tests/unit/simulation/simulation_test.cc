@@ -9,6 +9,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "simulator/common/thread_team.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
@@ -154,6 +155,25 @@ TEST(Simulation, AFlowResultActsOnTheSceneThatIsHeld) {
   }
   EXPECT_EQ(bits(simulation.run(Changes{})), before);
   std::filesystem::remove_all(folder);
+}
+
+/// In three dimensions, where much slides.
+TEST(Simulation, GivesTheSameBitsWhoeverSharesTheWorkOfACase) {
+  Simulation simulation = field();
+  const Changes changes = {
+      {"/tier", "custom"},
+      {"/mesh", R"({"strike": "250 m", "dip": "40 m", "normal": "150 m", "growth": 2})"},
+      {"friction_angle", "12 deg"},
+      {"ratio_across", "0.6"}};
+  SilentMonitor silent;
+  RunContext context(silent);
+  const CaseResult alone = simulation.run(changes, context);
+  EXPECT_FALSE(alone.plane_strain);
+  EXPECT_GT(std::ranges::max(alone.steps, {}, &StepResult::n_slip).n_slip, 100);
+  ThreadTeam team(2);
+  context.team = &team;
+  EXPECT_EQ(bits(simulation.run(changes, context)), bits(alone));
+  EXPECT_GT(team.n_works(), 20) << "there was nothing to share";
 }
 
 TEST(Simulation, SaysWhenAChangeNeedsAnotherOperator) {

@@ -43,7 +43,7 @@ struct Told {
 
 TEST(ResidentCase, ShowsTheLastOfManyQuestionsToTheLastBit) {
   Told told;
-  ResidentCase resident({});
+  ResidentCase resident({}, 2);
   resident.listen(std::ref(told));
   std::mt19937 random(3);
   const auto between = [&](double from, double to) {
