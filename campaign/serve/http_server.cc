@@ -109,8 +109,15 @@ std::optional<HttpProblem> problem_of(const Head& head, bool has_body, const Ser
       port);
 }
 
+/// Whether the client may ask again on its connection: only who says that it means to. A page does,
+/// which asks many times a second; whatever is wrong ends its connection.
+bool is_kept(const Head& head, const HttpResponse& response) {
+  return response.status < 400 && head.keep_alive() &&
+         http::token_list(head[http::field::connection]).exists("keep-alive");
+}
+
 template <typename Body>
-void add_headers(http::response<Body>& to, const HttpResponse& from) {
+void add_headers(http::response<Body>& to, const HttpResponse& from, bool is_kept) {
   to.set(http::field::server, kName);
   to.set(http::field::content_type, from.type);
   to.set(http::field::cache_control, "no-store");
@@ -123,7 +130,7 @@ void add_headers(http::response<Body>& to, const HttpResponse& from) {
   constexpr int kNoSuchMethod = 405, kTooMany = 429, kBusy = 503;
   if (from.status == kNoSuchMethod) to.set(http::field::allow, "GET, HEAD");
   if (from.status == kTooMany || from.status == kBusy) to.set(http::field::retry_after, "1");
-  to.keep_alive(false);
+  to.set(http::field::connection, is_kept ? "keep-alive" : "close");
 }
 
 }  // namespace
@@ -149,7 +156,7 @@ struct Listener {
   HttpServer::Handler handler;
   RateLimit rate;
   std::size_t unanswered = 0;
-  std::list<Session*> sessions;  ///< oldest first.
+  std::list<Session*> sessions;  ///< that have waited longest for their clients first.
   asio::io_context io{1};
   tcp::acceptor acceptor{io};
   asio::steady_timer pause{io}, tick{io};
@@ -157,7 +164,8 @@ struct Listener {
   asio::thread_pool answers;  ///< ends before what its work refers to.
 };
 
-/// One connection and its one request. It lives as long as something is awaited for it.
+/// One connection and its requests, one after the other. It lives as long as something is awaited
+/// for it.
 class Session : public std::enable_shared_from_this<Session> {
  public:
   Session(tcp::socket socket, Listener& server);
@@ -185,10 +193,10 @@ class Session : public std::enable_shared_from_this<Session> {
   std::list<Session*>::iterator place_;
   boost::beast::tcp_stream stream_;
   boost::beast::flat_buffer buffer_;
-  http::request_parser<http::empty_body> parser_;
+  std::optional<http::request_parser<http::empty_body>> parser_;  ///< of one request.
   http::response<http::string_body> response_;
   http::response<http::empty_body> head_of_response_;
-  bool is_being_answered_ = false, is_closed_ = false, is_head_ = false;
+  bool is_being_answered_ = false, is_closed_ = false, is_head_ = false, is_kept_ = false;
   std::size_t left_to_skip_ = 0;
 };
 
@@ -197,14 +205,15 @@ Session::Session(tcp::socket socket, Listener& server)
       limits_(server.settings.limits),
       place_(server.sessions.insert(server.sessions.end(), this)),
       stream_(std::move(socket)),
-      buffer_(limits_.head_bytes) {
-  parser_.header_limit(static_cast<std::uint32_t>(limits_.head_bytes));
-}
+      buffer_(limits_.head_bytes) {}
 
 void Session::read_head() {
+  parser_.emplace();
+  parser_->header_limit(static_cast<std::uint32_t>(limits_.head_bytes));
+  server_.sessions.splice(server_.sessions.end(), server_.sessions, place_);
   stream_.expires_after(duration_of(limits_.head_seconds));
   http::async_read_header(
-      stream_, buffer_, parser_,
+      stream_, buffer_, *parser_,
       [self = shared_from_this()](const error_code& error, std::size_t) { self->decide(error); });
 }
 
@@ -214,13 +223,13 @@ void Session::decide(const error_code& error) {
     problem = problem_of(error);
     if (!problem) return;  // the client went away, or took too long
   } else {
-    is_head_ = parser_.get().method() == http::verb::head;
-    const bool has_body = parser_.chunked() || parser_.content_length().value_or(0) > 0;
-    problem = problem_of(parser_.get(), has_body, limits_, server_.port);
+    is_head_ = parser_->get().method() == http::verb::head;
+    const bool has_body = parser_->chunked() || parser_->content_length().value_or(0) > 0;
+    problem = problem_of(parser_->get(), has_body, limits_, server_.port);
   }
   if (problem) return send(error_response(*problem));
   try {
-    const boost::beast::string_view target = parser_.get().target();
+    const boost::beast::string_view target = parser_->get().target();
     ask(parse_target({target.data(), target.size()}));
   } catch (const HttpError& refused) {
     send(error_response(refused.problem()));
@@ -253,14 +262,15 @@ void Session::ask(HttpRequest request) {
 
 void Session::send(const HttpResponse& response) {
   stream_.expires_after(duration_of(limits_.send_seconds));
+  is_kept_ = is_kept(parser_->get(), response);
   if (is_head_) {
     head_of_response_ = {static_cast<http::status>(response.status), 11};
-    add_headers(head_of_response_, response);
+    add_headers(head_of_response_, response, is_kept_);
     head_of_response_.content_length(response.body.size());
     return write(head_of_response_);
   }
   response_ = {static_cast<http::status>(response.status), 11};
-  add_headers(response_, response);
+  add_headers(response_, response, is_kept_);
   response_.body() = response.body;
   response_.prepare_payload();
   write(response_);
@@ -271,6 +281,7 @@ void Session::write(http::response<Body>& message) {
   http::async_write(stream_, message,
                     [self = shared_from_this()](const error_code& error, std::size_t) {
                       if (error) return;
+                      if (self->is_kept_) return self->read_head();
                       error_code ignored;  // the client may be gone
                       self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
                       self->left_to_skip_ = 16 * self->limits_.head_bytes;

@@ -37,7 +37,9 @@ struct ServerSettings {
 };
 
 /// An HTTP server on 127.0.0.1 alone, for GET and HEAD without a body. A connection is for one
-/// request. Whoever is slow waits for itself: one thread waits for all clients, others answer.
+/// request, or for as many as its client says it has ("Connection: keep-alive"), one after the
+/// other, until one of them is refused. Whoever is slow waits for itself: one thread waits for all
+/// clients, others answer.
 class HttpServer {
  public:
   /// The answer to a request, called from several threads at once; does not throw.

@@ -44,6 +44,11 @@ class Client {
   void send(const std::string& text) const {
     std::ignore = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
   }
+  /// Waits until something comes.
+  void read_some() const {
+    char one = 0;
+    EXPECT_EQ(::recv(socket_, &one, 1, 0), 1);
+  }
   /// All that comes until the server closes.
   std::string read() const {
     std::string all;
@@ -121,6 +126,34 @@ TEST_F(HttpServerTest, AnswersWithHeadersThatLetNothingElseIn) {
   EXPECT_EQ(body_of(only_head), "");
 }
 
+/// One connection, two requests at once and a third after the first answer; the fourth is refused.
+TEST_F(HttpServerTest, KeepsAConnectionForWhoAsksTo) {
+  start();
+  const auto kept = [&](const std::string& path) {
+    return head("GET " + path + " HTTP/1.1", "Connection: keep-alive\r\n");
+  };
+  const Client client(server_->port(), kept("/a") + kept("/b"));
+  client.send(kept("/c"));
+  client.send(kept("/%zz"));
+  client.send(kept("/d"));
+  const std::string all = client.read();
+  std::size_t at = 0;
+  for (const char* next : {"HTTP/1.1 200 OK", "Connection: keep-alive", "asked for a",
+                           "asked for b", "asked for c", "HTTP/1.1 400 ", "Connection: close"}) {
+    at = all.find(next, at);
+    ASSERT_NE(at, std::string::npos) << next << " is missing or out of order in\n" << all;
+  }
+  EXPECT_THAT(all, Not(HasSubstr("asked for d")));
+}
+
+TEST_F(HttpServerTest, AKeptConnectionThatIsIdleIsClosed) {
+  ServerSettings settings;
+  settings.limits.head_seconds = 0.2;
+  start(settings);
+  const Client client(server_->port(), head("GET /a HTTP/1.1", "Connection: keep-alive\r\n"));
+  EXPECT_EQ(body_of(client.read()), "asked for a");
+}
+
 TEST_F(HttpServerTest, ListensOnLoopbackAlone) {
   start();
   EXPECT_EQ(server_->address(), concat("http://127.0.0.1:", server_->port(), "/"));
@@ -179,6 +212,11 @@ TEST_F(HttpServerTest, ClientsThatWaitHoldNobody) {
     slow.push_back(std::make_unique<Client>(server_->port(), "GET / HTTP/1.1\r\nHo"));
   for (int k = 0; k < 5; ++k) {  // ask for much and do not read it
     slow.push_back(std::make_unique<Client>(server_->port(), head("GET /large HTTP/1.1")));
+  }
+  for (std::size_t k = 0; k < 2 * ServerLimits().connections; ++k) {  // have an answer and stay
+    slow.push_back(std::make_unique<Client>(server_->port(),
+                                            head("GET /a HTTP/1.1", "Connection: keep-alive\r\n")));
+    slow.back()->read_some();
   }
   for (int k = 0; k < 20; ++k) {
     const auto began = std::chrono::steady_clock::now();
