@@ -87,9 +87,11 @@ struct StepLook {
   int step = 0;
   double time = 0;   ///< in the unit of the histories' axis.
   std::string says;  ///< "load step 10, primary production, 10 years".
-  /// Of each fault: those of its pieces, as the section has them, six hexadecimal digits each in
-  /// one word, as a case has thousands.
-  std::vector<std::string> colours;
+  /// Of each fault: the part of the scale of χ (figure::chi_part) of each of its pieces, as the
+  /// section has them, as a digit (0 to 9, then a to u): a case has thousands.
+  std::vector<std::string> chi;
+  /// Colours of the parts of the scale of χ: the first step has them.
+  std::vector<std::string> chi_colours;
   std::vector<std::pair<std::string, std::string>> notes;  ///< per compartment: its Δp.
   /// Per compartment that is painted the part of the scale of each of its pieces, as a digit
   /// (0 to 9, then a to v); "." = none is known.

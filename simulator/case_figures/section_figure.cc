@@ -70,14 +70,19 @@ bool fill_section(const Chosen& chosen, figure::Section& section) {
   return all_fields;
 }
 
+/// A part of a scale, as scripts read it.
+char digit_of(std::size_t part) {
+  constexpr std::string_view kDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
+  static_assert(figure::kPaintedParts <= kDigits.size() && figure::kChiParts <= kDigits.size());
+  return kDigits[part];
+}
+
 /// StepLook::painted of a reservoir.
 std::string painted_text(const figure::Section::Rock& rock, const figure::FaceColours& colours) {
-  constexpr std::string_view kDigits = "0123456789abcdefghijklmnopqrstuvwxyz";
-  static_assert(figure::kPaintedParts <= kDigits.size());
   std::string text;
   for (const figure::Section::Rock::Piece& piece : rock.pieces) {
     const auto part = figure::part_of(colours, piece.value, figure::kPaintedParts);
-    text += part ? kDigits[*part] : '.';
+    text += part ? digit_of(*part) : '.';
   }
   return text;
 }
@@ -142,9 +147,11 @@ std::vector<StepLook> step_looks(const CasePicture& picture) {
     look.time = time_of(picture.result, step.time);
     look.says = moment_text(chosen);
     for (const figure::Section::FaultLine& fault : section.faults) {
-      std::string& colours = look.colours.emplace_back();
-      for (const double chi : fault.chi) colours.append(figure::chi_colour(chi), 1);
+      std::string& parts = look.chi.emplace_back();
+      for (const double chi : fault.chi) parts += digit_of(figure::chi_part(chi));
     }
+    for (std::size_t part = 0; looks.empty() && part < figure::kChiParts; ++part)
+      look.chi_colours.push_back(figure::chi_part_colour(part));
     for (const figure::Section::Rock& rock : section.rocks) {
       if (rock.is_reservoir) look.notes.emplace_back(rock.name, rock.note);
       if (!rock.pieces.empty())

@@ -9,7 +9,7 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-/// By hand: a page that moves has thousands of them, and printf takes half a microsecond each.
+/// By hand: a drawing may have thousands of them, and printf takes half a microsecond each.
 std::string hex(const Rgb& colour) {
   constexpr const char* kDigits = "0123456789abcdef";
   std::string text = "#";
@@ -57,13 +57,37 @@ std::string fault_ink(std::size_t k) {
   return kInks[k % std::size(kInks)];
 }
 
-std::string chi_colour(double chi) {
+namespace {
+
+constexpr std::size_t kBelow = 20, kAbove = 10;  // parts on both sides of kHighChi
+constexpr double kHighChi = 0.8;
+static_assert(kBelow + kAbove + 1 == kChiParts);
+
+std::size_t part_of_share(double share, std::size_t n_parts) {
+  const auto n = static_cast<double>(n_parts);
+  return static_cast<std::size_t>(std::clamp(share * n, 0.0, n - 1));
+}
+
+}  // namespace
+
+std::size_t chi_part(double chi) {
+  if (chi >= kChiAtLimit) return kChiParts - 1;
+  if (chi >= kHighChi) return kBelow + part_of_share((chi - kHighChi) / (1 - kHighChi), kAbove);
+  return part_of_share(chi / kHighChi, kBelow);
+}
+
+std::string chi_part_colour(std::size_t part) {
   constexpr Rgb kNone = {240, 244, 248}, kBlue = {150, 190, 226}, kOrange = {240, 160, 56},
                 kBrown = {196, 84, 8}, kLimit = {110, 10, 40};
-  if (chi >= kChiAtLimit) return hex(kLimit);
-  if (chi >= 0.8) return hex(between(kOrange, kBrown, (chi - 0.8) / 0.2));
-  return hex(between(kNone, kBlue, std::clamp(chi / 0.8, 0.0, 1.0)));
+  const auto middle = [](std::size_t k, std::size_t n) {
+    return (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+  };
+  if (part >= kChiParts - 1) return hex(kLimit);
+  if (part >= kBelow) return hex(between(kOrange, kBrown, middle(part - kBelow, kAbove)));
+  return hex(between(kNone, kBlue, middle(part, kBelow)));
 }
+
+std::string chi_colour(double chi) { return chi_part_colour(chi_part(chi)); }
 
 std::string share_colour(double share) {
   static constexpr Rgb kStops[] = {

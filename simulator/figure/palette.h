@@ -31,8 +31,12 @@ std::string paler(const std::string& colour);
 std::string fault_ink(std::size_t k);
 
 /// Colour of a critical index: lightness falls throughout, the hue changes at 0.8 (blue to orange)
-/// and at 1 (to dark red), so that both are seen in colour, and the order in grey.
+/// and at 1 (to dark red), so that both are seen in colour, and the order in grey. It falls in
+/// parts, 20 below 0.8, 10 below the limit, and the limit.
 std::string chi_colour(double chi);
+inline constexpr std::size_t kChiParts = 31;
+std::size_t chi_part(double chi);
+std::string chi_part_colour(std::size_t part);
 /// From here on a χ counts as 1: the tolerance to which slipping nodes keep to their strength.
 inline constexpr double kChiAtLimit = 1 - 1e-6;
 /// Colour of a share of cases that slide: lightness falls throughout, from pale blue (none) by

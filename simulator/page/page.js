@@ -45,14 +45,26 @@ function places_of(texts) {
   order.forEach((k, n) => { places[k] = n > 0 && compare(order[n - 1], k) === 0 ? places[order[n - 1]] : n; });
   return places;
 }
+// Of a hundred thousand rows a list of texts or numbers made anew with every key is what fills memory: passing() and placing() make
+// arrays of bytes and of whole numbers where they cannot do without.
 /** A column of which each row has one of some texts. */
 function column_of(texts, at) {
-  let places = null;
   return {
     text: (row) => texts[at(row)],
-    passing: (passes) => { const each = texts.map(passes); return (row) => each[at(row)]; },
-    place: (row) => (places = places || places_of(texts))[at(row)],
+    passing: (passes) => { const each = Uint8Array.from(texts, passes); return (row) => each[at(row)] === 1; },
+    placing: () => { const places = places_of(texts); return (row) => places[at(row)]; },
+    has_numbers: () => texts.some((text) => !Number.isNaN(number_of(text))),
   };
+}
+/** Where a number stands first among sorted ones that have it. */
+function place_in(sorted, number) {
+  let from = 0, to = sorted.length;
+  while (from < to) {
+    const middle = (from + to) >> 1;
+    if (sorted[middle] < number) from = middle + 1;
+    else to = middle;
+  }
+  return from;
 }
 /** A column of numbers that are not negative, given as whole ones. */
 function column_of_numbers(numbers, decimals) {
@@ -61,10 +73,10 @@ function column_of_numbers(numbers, decimals) {
     const digits = String(numbers[row]).padStart(decimals + 1, "0"), point = digits.length - decimals;
     return (digits.slice(0, point) + "." + digits.slice(point)).replace(/\.?0*$/, "");
   };
-  // A hundred thousand texts are not made where the numbers are enough.
   const scale = 10 ** decimals;
   const passing = (passes) => passes.number ? (row) => passes.number(numbers[row] / scale) : (row) => passes(text(row));
-  return {text, passing, place: (row) => numbers[row]};
+  const placing = () => { const sorted = new Float64Array(numbers).sort(); return (row) => place_in(sorted, numbers[row]); };
+  return {text, passing, placing, has_numbers: () => true};
 }
 /** Columns that stand in the table whole. */
 function columns_of_elements(table) {
@@ -97,19 +109,20 @@ function make_sortable(table) {
   if (stored) stored.remove();  // megabytes of text
   const classes = heads.map((head) => head.className);
   const n_rows = data.rows, said = document.getElementById(table.dataset.filter);
-  let shown = [], first = 0, by = -1, steps = 0, falling = false;  // rows that pass, in their order; of them the first on the page
+  const shown = new Uint32Array(n_rows);  // rows that pass, in their order
+  let n_shown = 0, first = 0, by = -1, steps = 0, falling = false;  // how many of them, and the first on the page
   const pager = document.createElement("p");
   pager.className = "pager";
   const turn = [["first", () => 0], ["previous", () => first - rows_of_a_page], ["next", () => first + rows_of_a_page],
-    ["last", () => Math.floor((shown.length - 1) / rows_of_a_page) * rows_of_a_page]]
+    ["last", () => Math.floor((n_shown - 1) / rows_of_a_page) * rows_of_a_page]]
     .map(([words, to]) => button(words, () => { first = Math.max(0, to()); fill(); }));
   pager.append(...turn);
   table.parentElement.after(pager);
   said.setAttribute("role", "status");
 
   function fill() {
-    const end = Math.min(first + rows_of_a_page, shown.length);
-    const rows = shown.slice(first, end).map((row) => {
+    const end = Math.min(first + rows_of_a_page, n_shown);
+    const rows = Array.from(shown.subarray(first, end), (row) => {
       const line = document.createElement("tr");
       columns.forEach((column, k) => {
         const cell = line.insertCell();
@@ -119,11 +132,11 @@ function make_sortable(table) {
       return line;
     });
     body.replaceChildren(...rows);
-    const all = counted(shown.length) + " of " + counted(n_rows) + " rows";
-    pager.hidden = shown.length <= rows_of_a_page;
+    const all = counted(n_shown) + " of " + counted(n_rows) + " rows";
+    pager.hidden = n_shown <= rows_of_a_page;
     said.textContent = all + (pager.hidden ? "" : "; here " + counted(first + 1) + " to " + counted(end));
     turn[0].disabled = turn[1].disabled = first === 0;
-    turn[2].disabled = turn[3].disabled = end === shown.length;
+    turn[2].disabled = turn[3].disabled = end === n_shown;
   }
   function choose() {
     const tests = [];
@@ -131,28 +144,23 @@ function make_sortable(table) {
       const passes = condition_of(input.value);
       if (passes) tests.push(columns[k].passing(passes));
     });
-    shown = [];
+    n_shown = first = 0;
     for (let row = 0; row < n_rows; ++row)
-      if (tests.every((passes) => passes(row))) shown.push(row);
-    if (by >= 0) {
-      const place = columns[by].place;
-      shown.sort((a, b) => {  // nothing is last either way
-        const x = place(a), y = place(b);
-        if (x === y) return a - b;
-        if (x < 0 || y < 0) return x < 0 ? 1 : -1;
-        return falling ? y - x : x - y;
-      });
-    }
-    first = 0;
+      if (tests.every((passes) => passes(row))) shown[n_shown++] = row;
+    if (by >= 0) sort_shown(columns[by].placing());
     fill();
   }
-  function has_numbers(column) {
-    for (let row = 0; row < n_rows; ++row) if (!Number.isNaN(number_of(column.text(row)))) return true;
-    return false;
+  /** Equal ones as they were ranked; nothing is last either way. */
+  function sort_shown(place) {
+    const keys = Float64Array.from(shown.subarray(0, n_shown), (row) => {
+      const at = place(row);
+      return (at < 0 ? n_rows : falling ? n_rows - 1 - at : at) * n_rows + row;
+    }).sort();
+    keys.forEach((key, k) => { shown[k] = key % n_rows; });
   }
   /** Numbers fall first, words rise; then the other way; then as it was ranked. */
   function sort_by(k) {
-    if (by !== k) by = k, steps = 0, falling = has_numbers(columns[k]);
+    if (by !== k) by = k, steps = 0, falling = columns[k].has_numbers();
     else if (++steps === 1) falling = !falling;
     else by = -1;
     heads.forEach((head, i) => head.setAttribute("aria-sort", i !== by ? "none" : falling ? "descending" : "ascending"));
@@ -186,11 +194,9 @@ function step_shower(part, steps) {
       cursor.setAttribute("transform", "translate(" + (step.time - cursor.dataset.cursor) * (one - zero) + " 0)");
     }
     for (const fault of faults) {
-      const colours = step.colours[fault.dataset.fault] || "", last = colours.length / 6 - 1;
-      for (let i = 0, line = colours && fault.firstElementChild; line; line = line.nextElementSibling, ++i) {
-        const at = 6 * Math.min(i, last);
-        line.setAttribute("stroke", "#" + colours.slice(at, at + 6));
-      }
+      const parts = step.chi[fault.dataset.fault] || "", last = parts.length - 1;
+      for (let i = 0, line = parts && fault.firstElementChild; line; line = line.nextElementSibling, ++i)
+        line.setAttribute("stroke", steps[0].chi_colours[parseInt(parts[Math.min(i, last)], 36)]);
     }
     for (const name of names) {
       const note = step.notes[name.dataset.rock];

@@ -10,9 +10,10 @@ nlohmann::json steps_json(const CasePicture& picture) {
     nlohmann::json step = {{"step", look.step},
                            {"time", look.time},
                            {"says", look.says},
-                           {"colours", look.colours},
+                           {"chi", look.chi},
                            {"notes", notes}};
     for (const auto& [name, parts] : look.painted) step["painted"][name] = parts;
+    if (!look.chi_colours.empty()) step["chi_colours"] = look.chi_colours;
     if (look.scale)
       step["scale"] = {{"colours", look.scale->colours}, {"texts", look.scale->texts}};
     steps.push_back(std::move(step));

@@ -6,8 +6,9 @@
 
 namespace faultsim {
 
-/// step_looks as a page's script reads them: of each load step {"step", "time", "says", "colours",
-/// "notes"}, of painted sections "painted" and, the first, "scale". @pre the scene is a field.
+/// step_looks as a page's script reads them: of each load step {"step", "time", "says", "chi",
+/// "notes"}, of painted sections "painted"; the first has "chi_colours" and, of painted sections,
+/// "scale". @pre the scene is a field.
 nlohmann::json steps_json(const CasePicture& picture);
 
 }  // namespace faultsim

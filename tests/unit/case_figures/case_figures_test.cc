@@ -142,9 +142,10 @@ TEST(StepLooks, HaveAColourPerFaultAndTheWordsOfTheStep) {
   const std::vector<StepLook> looks = step_looks({result, scene, nullptr, {}});
   ASSERT_EQ(looks.size(), 3U);
   EXPECT_EQ(looks[1].says, "load step 1, primary production, 5 years");
-  ASSERT_EQ(looks[1].colours.size(), 3U);
-  EXPECT_NE(looks[1].colours[0], looks[1].colours[1]);
-  EXPECT_EQ("#" + looks[1].colours[0], figure::chi_colour(result.steps[1].faults[0].chi_bar))
+  ASSERT_EQ(looks[1].chi.size(), 3U);
+  EXPECT_NE(looks[1].chi[0], looks[1].chi[1]);
+  EXPECT_EQ(looks[0].chi_colours.at(std::stoul(looks[1].chi[0], nullptr, 36)),
+            figure::chi_colour(result.steps[1].faults[0].chi_bar))
       << "one piece, of the whole fault";
   EXPECT_EQ(looks[2].notes.front().second, "Δp −200 bar");
 }
