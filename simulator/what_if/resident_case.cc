@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -16,13 +17,14 @@ namespace faultsim {
 /// What the thread and those who ask share: under the mutex; `simulation` and `taken_scene` are the
 /// thread's.
 struct ResidentCase::Impl {
-  explicit Impl(int threads) : n_threads(threads), team(std::min(threads, kMostThreadsOfCase)) {}
+  Impl(int threads, std::chrono::milliseconds between)
+      : n_threads(threads), between_words(between), team(std::min(threads, kMostThreadsOfCase)) {}
   void live();
   bool take_next();
   void hold(long question);
   bool leaves_build(long question);
   void answer(long question);
-  std::shared_ptr<const ShownCase> run();
+  std::shared_ptr<const ShownCase> run(long question);
   void tell(long question, const QuestionProgress& how);
   void tell_build(const std::string& what);
   /// The thread is at an operator that the newest question needs too.
@@ -33,7 +35,8 @@ struct ResidentCase::Impl {
   }
 
   const int n_threads;
-  ThreadTeam team;  ///< of the thread, for cases.
+  const std::chrono::milliseconds between_words;  ///< about a run.
+  ThreadTeam team;                                ///< of the thread, for cases.
   Simulation simulation;
   LoadedScene taken_scene;  ///< until it is held.
   Listener listener = [](long, const QuestionProgress&) {};
@@ -64,6 +67,25 @@ class BuildWords final : public Monitor {
 
  private:
   std::function<void(const std::string&)> tell_;
+};
+
+/// Tells how far a run is, "production, 40 %", now and then: most runs end before the first.
+class RunWords final : public Monitor {
+ public:
+  RunWords(std::chrono::milliseconds between, std::function<void(const std::string&)> tell)
+      : between_(between), tell_(std::move(tell)) {}
+  void progress(double fraction, const std::string& what) override {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - told_ < between_) return;
+    told_ = now;
+    tell_(concat(what, ", ", std::lround(100 * fraction), " %"));
+  }
+  void note(const std::string&) override {}
+
+ private:
+  std::chrono::milliseconds between_;
+  std::function<void(const std::string&)> tell_;
+  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace
@@ -130,7 +152,7 @@ void ResidentCase::Impl::answer(long question) {
     simulation.prepare({words, StopToken(stop), n_threads});
     if (!leaves_build(question)) return;
     tell(question, {.state = QuestionState::running});
-    std::shared_ptr<const ShownCase> shown = run();
+    std::shared_ptr<const ShownCase> shown = run(question);
     if (shown->result.outcome != Outcome::interrupted)
       tell(question, {.state = QuestionState::done, .shown = std::move(shown)});
   } catch (const Interrupted&) {  // superseded, or the end
@@ -141,7 +163,7 @@ void ResidentCase::Impl::answer(long question) {
   }
 }
 
-std::shared_ptr<const ShownCase> ResidentCase::Impl::run() {
+std::shared_ptr<const ShownCase> ResidentCase::Impl::run(long question) {
   const LoadedScene& loaded = simulation.scene();
   auto shown = std::make_shared<ShownCase>(ShownCase{
       loaded.document, loaded.scene, {}, FieldRecorder(simulation.prepared().op->geometry)});
@@ -149,15 +171,18 @@ std::shared_ptr<const ShownCase> ResidentCase::Impl::run() {
   watch.step = [&](const StepResult& step, const FaultFields& fields) {
     shown->fields.add_step(step, fields);
   };
-  RunContext context;
-  context.stop = StopToken(stop);
+  RunWords words(between_words, [&](const std::string& how_far) {
+    tell(question, {.state = QuestionState::running, .says = how_far});
+  });
+  RunContext context(words, StopToken(stop));
   context.team = &team;
   shown->result = simulation.run(context, watch);
   return shown;
 }
 
-ResidentCase::ResidentCase(const CachePolicy& cache, int n_threads)
-    : impl_(std::make_unique<Impl>(n_threads)) {
+ResidentCase::ResidentCase(const CachePolicy& cache, int n_threads,
+                           std::chrono::milliseconds between_words)
+    : impl_(std::make_unique<Impl>(n_threads, between_words)) {
   impl_->simulation.keep_operators(cache);
   impl_->thread = std::thread([&self = *impl_] { self.live(); });
 }

@@ -33,7 +33,8 @@ enum class QuestionState {
 /// How far a question has come.
 struct QuestionProgress {
   QuestionState state = QuestionState::running;
-  std::string says = {};  ///< of building: "factorising 257,049 unknowns"; of failed: why.
+  /// Of building: "factorising 257,049 unknowns"; of running: "production, 40 %"; of failed: why.
+  std::string says = {};
   std::shared_ptr<const ShownCase> shown = nullptr;  ///< of done.
   bool is_open() const {
     return state == QuestionState::building || state == QuestionState::running;
@@ -51,7 +52,9 @@ class ResidentCase {
   /// @param cache      where operators are looked for and kept; an empty folder: nowhere.
   /// @param n_threads  for building one, and for a case as many of them as it is worth
   /// (kMostThreadsOfCase); bits do not depend on them.
-  explicit ResidentCase(const CachePolicy& cache, int n_threads = 1);
+  /// @param between_words  before and between those about a run.
+  explicit ResidentCase(const CachePolicy& cache, int n_threads = 1,
+                        std::chrono::milliseconds between_words = std::chrono::milliseconds(100));
   ~ResidentCase();  ///< ends what is under way.
   ResidentCase(const ResidentCase&) = delete;
   ResidentCase& operator=(const ResidentCase&) = delete;

@@ -15,6 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 JsonDocument field() {
   JsonDocument document = parse_json(starter_scene("field"), "field.json");
@@ -40,6 +42,27 @@ struct Told {
     last[number] = progress.state;
   }
 };
+
+/// Step by step, where nothing lies between the words; most runs are over before 100 ms.
+TEST(ResidentCase, SaysHowFarARunIs) {
+  for (const auto between : {0ms, 100'000ms}) {
+    std::vector<std::string> said;
+    ResidentCase resident({}, 1, between);
+    resident.listen([&](long, const QuestionProgress& how) {
+      if (how.state == QuestionState::running && !how.says.empty()) said.push_back(how.says);
+    });
+    resident.ask(1, field(), {});
+    const QuestionProgress end = resident.wait(1, 60s);
+    ASSERT_EQ(end.state, QuestionState::done);
+    if (between > 0ms) {
+      EXPECT_THAT(said, IsEmpty());
+      continue;
+    }
+    ASSERT_EQ(said.size(), end.shown->result.steps.size());
+    EXPECT_EQ(said.back(), end.shown->result.steps.back().stage + ", 100 %");
+    EXPECT_THAT(said.front(), Not(HasSubstr(" 100 %")));
+  }
+}
 
 TEST(ResidentCase, ShowsTheLastOfManyQuestionsToTheLastBit) {
   Told told;
