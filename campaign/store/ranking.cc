@@ -220,7 +220,8 @@ std::vector<RankedCase> Store::first_ranked(std::int64_t campaign,
   return ranked;
 }
 
-/// All pages of an order are one sort, which is kept until the store changes.
+/// All pages of an order are one sort, which is kept until the store changes; the other way round
+/// it is another sort of what was read.
 const std::vector<Store::RankedPlace>& Store::order_by_score(std::int64_t campaign,
                                                              const RankingQuery& query) const {
   forget_if_changed();
@@ -229,24 +230,30 @@ const std::vector<Store::RankedPlace>& Store::order_by_score(std::int64_t campai
   const std::string sql = concat("SELECT ", query.fault ? "q" : "s", ".case_id, cc.position, (",
                                  joined.query.by.text, "), ", query.fault ? "q" : "s",
                                  ".rank_class", selection_sql(query, false, along_for_all(query)));
-  std::string key = question_text(campaign, query, sql) + (query.ascending ? "\n<" : "\n>");
+  std::string key = question_text(campaign, query, sql);
   for (const auto& value : query.by.parameters) key += "\n" + std::visit(Spelled{}, value);
-  const auto known = std::ranges::find(orders_, key, &KeptOrder::key);
-  if (known != orders_.end()) return known->places;
-  KeptOrder order{std::move(key), {}};
-  Statement rows(*connection_, sql);
-  rows.bind(query.by.parameters, campaign, query.stage, query.where.parameters);
-  while (rows.step()) {
-    order.places.push_back(rows.row<RankedPlace, std::int64_t, long, std::optional<double>, int>());
+  auto known = std::ranges::find(orders_, key, &KeptOrder::key);
+  if (known == orders_.end()) {
+    KeptOrder order{std::move(key), {}};
+    Statement rows(*connection_, sql);
+    rows.bind(query.by.parameters, campaign, query.stage, query.where.parameters);
+    while (rows.step()) {
+      order.places.push_back(
+          rows.row<RankedPlace, std::int64_t, long, std::optional<double>, int>());
+    }
+    if (orders_.size() >= kMostKept) orders_.pop_front();
+    orders_.push_back(std::move(order));
+    known = std::prev(orders_.end());
   }
+  if (known->ascending == query.ascending) return known->places;
   const auto key_of = [&](const RankedPlace& place) {
     const double score = place.score.value_or(0);
     return std::tuple(place.rank_class, !place.score, query.ascending ? score : -score,
                       place.position);
   };
-  std::ranges::sort(order.places, {}, key_of);
-  if (orders_.size() >= kMostKept) orders_.pop_front();
-  return orders_.emplace_back(std::move(order)).places;
+  std::ranges::sort(known->places, {}, key_of);
+  known->ascending = query.ascending;
+  return known->places;
 }
 
 std::vector<RankedCase> Store::ranking(std::int64_t campaign, const RankingQuery& query) const {
@@ -299,8 +306,10 @@ void Store::forget_if_changed() const {
   counted_state_ = state;
 }
 
-Store::ClassCounts Store::class_counts(std::int64_t campaign, const RankingQuery& query) const {
+Store::ClassCounts Store::class_counts(std::int64_t campaign, const RankingQuery& asked) const {
   forget_if_changed();
+  RankingQuery query = asked;
+  query.by = {};  // the same whatever they are ordered by
   constexpr std::size_t kMostKept = 64;
   if (class_counts_.size() >= kMostKept) class_counts_.clear();
   const std::string selection = selection_sql(query, false, along_for_all(query));

@@ -314,8 +314,9 @@ class Store {
     int rank_class = 0;
   };
   struct KeptOrder {
-    std::string key;  ///< all that it depends on but the state of the store.
+    std::string key;  ///< all that the scores depend on but the state of the store.
     std::vector<RankedPlace> places;
+    std::optional<bool> ascending = std::nullopt;  ///< as they lie; none = as they were read.
   };
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
   std::vector<RankedCase> first_ranked(std::int64_t campaign, const RankingQuery& query) const;
