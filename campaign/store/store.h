@@ -306,20 +306,26 @@ class Store {
   static std::optional<std::string> damage_of(const std::filesystem::path& folder);
 
  private:
-  /// A case in an order by a score.
+  /// A case in a ranking.
   struct RankedPlace {
     std::int64_t id = 0;
     long position = 0;
-    std::optional<double> score = {};
     int rank_class = 0;
+    std::optional<double> score = {};
   };
-  struct KeptOrder {
-    std::string key;  ///< all that the scores depend on but the state of the store.
+  struct KeptPlaces {
+    std::string key;  ///< all that they depend on but the state of the store.
     std::vector<RankedPlace> places;
-    std::optional<bool> ascending = std::nullopt;  ///< as they lie; none = as they were read.
+    std::optional<bool> ascending = std::nullopt;  ///< by score; none = by position.
   };
+  static constexpr std::size_t kMostKept = 4;  ///< 4 MB each, of 10^5 cases.
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
   std::vector<RankedCase> first_ranked(std::int64_t campaign, const RankingQuery& query) const;
+  /// The query's cases by position, whatever they are ordered by.
+  const std::vector<RankedPlace>& selected(std::int64_t campaign, const RankingQuery& query) const;
+  /// Gives these, which lie by position, their scores.
+  void score(std::int64_t campaign, const RankingQuery& query,
+             std::vector<RankedPlace>& places) const;
   const std::vector<RankedPlace>& order_by_score(std::int64_t campaign,
                                                  const RankingQuery& query) const;
   void forget_if_changed() const;
@@ -338,8 +344,7 @@ class Store {
   std::unique_ptr<Checksums> checksums_;
   mutable std::unique_ptr<ResultTables> tables_;  ///< made when first asked for.
   std::string remark_;
-  mutable std::map<std::string, ClassCounts> class_counts_;  ///< by question, of this state:
-  mutable std::deque<KeptOrder> orders_;                     ///< the newest last, of it too.
+  mutable std::deque<KeptPlaces> selected_, orders_;  ///< the newest last, of this state:
   mutable std::int64_t counted_state_ = -1;
   std::map<std::string, std::int64_t> names_;  ///< ids in table `names`, of those looked up.
 };

@@ -326,6 +326,46 @@ TEST_F(StoreTest, PagesOfAnOrderAreThoseOfTheStoreAsItIs) {
   EXPECT_THAT(places(), ElementsAre(6)) << "the same words with another value";
 }
 
+/// A score of one table is read from it alone, with the values that a join finds: of a campaign
+/// whose positions run against its case_ids, in a store with cases of others.
+TEST_F(StoreTest, AScoreOfOneTableIsThatOfAJoin) {
+  Store store = Store::open_owner(folder_);
+  store.submit(submission(7));
+  Submission other_way = submission(6, "other way");
+  std::ranges::reverse(other_way.cases);
+  const std::int64_t campaign = store.submit(other_way).campaign;
+  for (int id = 1; id <= 5; ++id)
+    store.record_runs(campaign, {completed(id, 0.3 + 0.1 * (id * 3 % 5))});
+  Store::RankingQuery query;
+  using Row = std::pair<long, std::optional<double>>;
+  const auto ranked = [&](const std::string& by) {
+    query.by = {by, {}};
+    std::vector<Row> rows;
+    for (const RankedCase& row : store.ranking(campaign, query))
+      rows.emplace_back(row.position, row.score);
+    return rows;
+  };
+  const std::string strength = parameter_sql(0, false);
+  EXPECT_THAT(ranked(strength), ElementsAre(Row(2, 4), Row(3, 3), Row(4, 2), Row(5, 1), Row(6, 0)));
+  EXPECT_EQ(ranked(metric_sql("chi_bar")).front().first, 4) << "case 3, of 0.7";
+  const std::string joined = " + 0 * (SELECT 1)";
+  for (const char* stage : {"", "gas_storage"}) {
+    for (const auto fault : {std::optional<std::int64_t>(), {store.faults(campaign)[1].id}}) {
+      for (const std::string& where : {std::string(), strength + " > 1"}) {
+        query = {};
+        query.stage = stage, query.fault = fault, query.where = {where, {}};
+        for (const std::string& by :
+             {strength, metric_sql("chi_bar", fault.has_value()), metric_sql("pressure_margin"),
+              metric_sql("n_events"),
+              std::string("CASE WHEN cc.position > 3 THEN s.chi_bar END")}) {
+          EXPECT_EQ(ranked(by), ranked("(" + by + ")" + joined)) << by;
+          EXPECT_EQ(ranked(by).size(), where.empty() ? 5u : 3u);
+        }
+      }
+    }
+  }
+}
+
 TEST_F(StoreTest, RollsBackWhatIsNotCommitted) {
   Store store = Store::open_owner(folder_);
   const std::int64_t campaign = store.submit(submission(3)).campaign;
