@@ -1,0 +1,325 @@
+#include "simulator/mesh/sectors.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <random>
+#include <set>
+
+namespace faultsim {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::ElementsAre;
+
+/// Triangles (of three corners) or tetrahedra, with the faults of their shared faces.
+struct Simplices {
+  std::vector<Vector3d> nodes;
+  std::vector<std::vector<int>> cells;
+  std::vector<SharedFace> faces;
+
+  int n_nodes() const { return static_cast<int>(nodes.size()); }
+  Vector3d centre(std::span<const int> of) const {
+    Vector3d sum = Vector3d::Zero();
+    int n = 0;
+    for (const int node : of) {
+      if (node < 0) continue;
+      sum += nodes[node];
+      ++n;
+    }
+    return sum / n;
+  }
+  Vector3d centre_of_cell(int cell) const { return centre(cells[cell]); }
+};
+
+/// Fills `faces` with what two cells share.
+void find_faces(Simplices& mesh) {
+  std::map<std::vector<int>, std::vector<int>> cells_of;
+  for (int c = 0; c < std::ssize(mesh.cells); ++c)
+    for (const int left_out : mesh.cells[c]) {
+      std::vector<int> face = mesh.cells[c];
+      std::erase(face, left_out);
+      std::ranges::sort(face);
+      cells_of[face].push_back(c);
+    }
+  for (const auto& [nodes, cells] : cells_of) {
+    if (cells.size() != 2) continue;
+    SharedFace face{{-1, -1, -1, -1}, {cells[0], cells[1]}};
+    std::ranges::copy(nodes, face.nodes.begin());
+    mesh.faces.push_back(face);
+  }
+}
+
+/// A square of n × n, or a cube of n × n × n, in cells of 1, each of simplices that share a
+/// diagonal.
+Simplices made_of(int n, int dimensions) {
+  Simplices mesh;
+  const int layers = dimensions == 3 ? n : 0;
+  const auto number = [n](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
+  for (int k = 0; k <= layers; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) mesh.nodes.emplace_back(i, j, k);
+  // Along each order of the axes from the low corner of a cell to its high one.
+  std::vector<int> axes(dimensions);
+  for (int k = 0; k < std::max(layers, 1); ++k)
+    for (int j = 0; j < n; ++j)
+      for (int i = 0; i < n; ++i) {
+        std::iota(axes.begin(), axes.end(), 0);
+        do {
+          std::array<int, 3> at = {i, j, k};
+          std::vector<int> cell = {number(i, j, k)};
+          for (const int axis : axes) {
+            ++at[axis];
+            cell.push_back(number(at[0], at[1], at[2]));
+          }
+          mesh.cells.push_back(cell);
+        } while (std::ranges::next_permutation(axes).found);
+      }
+  find_faces(mesh);
+  return mesh;
+}
+
+/// Faces between cells on different sides of a plane, whose centres a condition holds of.
+template <typename Condition>
+void add_fault(Simplices& mesh, int fault, const Vector3d& normal, double distance,
+               const Condition& is_inside) {
+  for (SharedFace& face : mesh.faces) {
+    const auto beyond = [&](int cell) { return mesh.centre_of_cell(cell).dot(normal) > distance; };
+    if (beyond(face.cells[0]) == beyond(face.cells[1]) || face.fault >= 0 ||
+        !is_inside(mesh.centre(face.nodes)))
+      continue;
+    face.fault = fault;
+    if (beyond(face.cells[0])) std::swap(face.cells[0], face.cells[1]);
+  }
+}
+
+bool everywhere(const Vector3d&) { return true; }
+
+/// Directions in which planes of whole distances consist of faces of such cells.
+const std::array<Vector3d, 6> kNormals = {
+    {{1, 0, 0}, {0, 1, 0}, {1, -1, 0}, {0, 0, 1}, {1, 0, -1}, {0, 1, -1}}};
+
+/// Parts of such planes with straight edges: faults that end, cross, end at each other, share
+/// faces.
+void add_random_faults(Simplices& mesh, int n, int n_faults, int dimensions, std::mt19937& random) {
+  std::uniform_int_distribution<std::size_t> direction(0, dimensions == 2 ? 2 : 5);
+  std::uniform_int_distribution<int> place(1, n - 1), turned(0, 1);
+  for (int fault = 0; fault < n_faults; ++fault) {
+    const auto whole_distance = [&](const Vector3d& normal) {
+      return std::round(normal.dot(Vector3d(place(random), place(random), place(random))));
+    };
+    Vector3d normal = kNormals[direction(random)];
+    double distance = whole_distance(normal);
+    if (turned(random) == 1) normal *= -1, distance *= -1;
+    std::vector<std::pair<Vector3d, double>> edges;
+    for (int k = 0; k < 2; ++k) {
+      const Vector3d across = (turned(random) == 1 ? 1 : -1) * kNormals[direction(random)];
+      edges.emplace_back(across, whole_distance(across));
+    }
+    add_fault(mesh, fault, normal, distance, [&](const Vector3d& x) {
+      return std::ranges::all_of(edges,
+                                 [&](const auto& edge) { return edge.first.dot(x) > edge.second; });
+    });
+  }
+}
+
+/// The copies that the corners of cells are of: those of a node are one where a way from cell to
+/// cell leads around it that meets no fault. Judges the splitter, by all corners at once.
+struct Corners {
+  explicit Corners(const Simplices& mesh) : corners_of(mesh.cells.front().size()) {
+    root.resize(mesh.cells.size() * corners_of);
+    std::iota(root.begin(), root.end(), 0);
+    for (const SharedFace& face : mesh.faces) {
+      if (face.fault >= 0) continue;
+      for (const int node : face.nodes)
+        if (node >= 0) root[of(mesh, face.cells[0], node)] = of(mesh, face.cells[1], node);
+    }
+  }
+  int of(const Simplices& mesh, int cell, int node) {
+    int k = cell * static_cast<int>(corners_of) +
+            static_cast<int>(std::ranges::find(mesh.cells[cell], node) - mesh.cells[cell].begin());
+    while (root[k] != k) k = root[k];
+    return k;
+  }
+  std::size_t corners_of;
+  std::vector<int> root;
+};
+
+std::vector<int> copies_of_nodes(const Simplices& mesh) {
+  Corners corners(mesh);
+  std::vector<std::set<int>> copies(mesh.nodes.size());
+  for (int c = 0; c < std::ssize(mesh.cells); ++c)
+    for (const int node : mesh.cells[c]) copies[node].insert(corners.of(mesh, c, node));
+  std::vector<int> n;
+  for (const auto& of : copies) n.push_back(static_cast<int>(of.size()));
+  return n;
+}
+
+int copy_of(const SplitNode& node, int cell) {
+  for (int s = 0; s < std::ssize(node.sectors); ++s)
+    if (std::ranges::binary_search(node.sectors[s], cell)) return s;
+  return -1;
+}
+
+/// u_s = ū + Σ ±½ g_j of the copies of a node: a row per copy.
+Eigen::MatrixXd weights(const SplitNode& node) {
+  const auto m = std::ssize(node.sectors);
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(m, 1 + std::ssize(node.jumps));
+  w.col(0).setOnes();
+  for (int j = 0; j < std::ssize(node.jumps); ++j) {
+    for (const int s : node.jumps[j].minus) w(s, j + 1) = -0.5;
+    for (const int s : node.jumps[j].plus) w(s, j + 1) = 0.5;
+  }
+  return w;
+}
+
+/// What must hold of any mesh whatever its faults are.
+void expect_sound(const Simplices& mesh, const SplitNodes& found) {
+  const std::vector<int> copies = copies_of_nodes(mesh);
+  std::map<int, std::size_t> expected, seen;
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (copies[node] > 1) expected[node] = static_cast<std::size_t>(copies[node]);
+  for (const UndecidedNode& node : found.undecided) seen[node.node] = expected[node.node];
+  for (const SplitNode& node : found.split) {
+    seen[node.node] = node.sectors.size();
+    const Eigen::MatrixXd w = weights(node);
+    ASSERT_EQ(w.rows(), w.cols()) << "one jump fewer than copies";
+    EXPECT_EQ(w.fullPivLu().rank(), w.rows());
+  }
+  EXPECT_EQ(seen, expected);
+  // A face of a fault is between copies that a jump of this fault, and no other one, has apart.
+  std::map<int, const SplitNode*> by_node;
+  for (const SplitNode& node : found.split) by_node[node.node] = &node;
+  for (const SharedFace& face : mesh.faces) {
+    for (const int node : face.nodes) {
+      if (face.fault < 0 || !by_node.contains(node)) continue;
+      const SplitNode& split = *by_node[node];
+      const int minus = copy_of(split, face.cells[0]), plus = copy_of(split, face.cells[1]);
+      if (minus == plus) continue;  // it ends there, and others cut
+      int n_between = 0;
+      for (const NodeJump& jump : split.jumps) {
+        const auto holds = [](const std::vector<int>& all, int s) {
+          return std::ranges::find(all, s) != all.end();
+        };
+        if (holds(jump.minus, minus) && holds(jump.plus, plus)) {
+          ++n_between;
+          EXPECT_EQ(jump.fault, face.fault);
+        }
+        EXPECT_FALSE(holds(jump.minus, plus) && holds(jump.plus, minus)) << "sides swapped";
+      }
+      EXPECT_EQ(n_between, 1);
+    }
+  }
+}
+
+std::vector<int> sizes(const SplitNodes& found, int node) {
+  for (const SplitNode& split : found.split) {
+    if (split.node != node) continue;
+    std::vector<int> of_faults;
+    for (const NodeJump& jump : split.jumps) of_faults.push_back(jump.fault);
+    return of_faults;
+  }
+  return {};
+}
+
+/// 4 × 4 squares of two triangles; node (i, j) is i + 5 j.
+class SplitNodesOfSquares : public ::testing::Test {
+ protected:
+  SplitNodes split() const {
+    SplitNodes found = split_nodes(mesh_.n_nodes(), mesh_.faces);
+    expect_sound(mesh_, found);
+    return found;
+  }
+  Simplices mesh_ = made_of(4, 2);
+  static constexpr int kMiddle = 2 + 5 * 2;
+};
+
+TEST_F(SplitNodesOfSquares, AFaultEndsAtItsTip) {
+  add_fault(mesh_, 0, Vector3d::UnitX(), 2, [](const Vector3d& x) { return x.y() > 2; });
+  const SplitNodes found = split();
+  ASSERT_EQ(found.split.size(), 2u) << "above the middle, which is the tip";
+  EXPECT_EQ(found.split[0].node, 2 + 5 * 3);
+  EXPECT_EQ(found.split[1].node, 2 + 5 * 4);
+  const NodeJump& jump = found.split[0].jumps.at(0);
+  for (const int cell : found.split[0].sectors[jump.plus.at(0)])
+    EXPECT_GT(mesh_.centre_of_cell(cell).x(), 2);
+}
+
+TEST_F(SplitNodesOfSquares, AFaultThatEndsAtAnotherIsWithinItsSide) {
+  add_fault(mesh_, 0, Vector3d::UnitY(), 2, [](const Vector3d& x) { return x.x() > 2; });
+  add_fault(mesh_, 1, Vector3d::UnitX(), 2, everywhere);
+  const SplitNodes found = split();
+  EXPECT_THAT(sizes(found, kMiddle), ElementsAre(1, 0)) << "whichever was named first";
+  EXPECT_THAT(sizes(found, 3 + 5 * 2), ElementsAre(0));
+}
+
+TEST_F(SplitNodesOfSquares, ACrossingHasThreeJumps) {
+  add_fault(mesh_, 0, Vector3d::UnitY(), 2, everywhere);
+  add_fault(mesh_, 1, Vector3d::UnitX(), 2, everywhere);
+  EXPECT_THAT(sizes(split(), kMiddle), ElementsAre(0, 1, 1));
+}
+
+TEST_F(SplitNodesOfSquares, FaultsThatBothEndCutOnlyTogether) {
+  add_fault(mesh_, 0, Vector3d::UnitY(), 2, [](const Vector3d& x) { return x.x() > 2; });
+  add_fault(mesh_, 3, Vector3d::UnitX(), 2, [](const Vector3d& x) { return x.y() > 2; });
+  const SplitNodes found = split();
+  ASSERT_EQ(found.undecided.size(), 1u);
+  EXPECT_EQ(found.undecided[0].node, kMiddle);
+  EXPECT_THAT(found.undecided[0].faults, ElementsAre(0, 3));
+}
+
+TEST_F(SplitNodesOfSquares, AFaultWithTurnedFacesIsUndecided) {
+  add_fault(mesh_, 0, Vector3d::UnitX(), 2, everywhere);
+  for (SharedFace& face : mesh_.faces)
+    if (face.fault == 0 && mesh_.centre(face.nodes).y() > 2)
+      std::swap(face.cells[0], face.cells[1]);
+  const SplitNodes found = split();
+  ASSERT_EQ(found.undecided.size(), 1u);
+  EXPECT_EQ(found.undecided[0].node, kMiddle);
+}
+
+std::vector<int> nodes_of(const std::vector<UndecidedNode>& undecided) {
+  std::vector<int> nodes;
+  for (const UndecidedNode& one : undecided) nodes.push_back(one.node);
+  return nodes;
+}
+
+/// Random faults of any order and direction.
+class RandomFaults : public ::testing::TestWithParam<int> {};
+
+TEST_P(RandomFaults, HaveOneJumpFewerThanCopies) {
+  const int dimensions = GetParam(), n_sets = dimensions == 2 ? 500 : 200;
+  const int size = dimensions == 2 ? 12 : 5;
+  std::mt19937 random(11);
+  int most_copies = 0;
+  std::size_t n_split = 0, n_undecided = 0;
+  for (int set = 0; set < n_sets; ++set) {
+    Simplices mesh = made_of(size, dimensions);
+    const int n_faults = 2 + set % 5;
+    add_random_faults(mesh, size, n_faults, dimensions, random);
+    const SplitNodes found = split_nodes(mesh.n_nodes(), mesh.faces);
+    expect_sound(mesh, found);
+    for (SharedFace& face : mesh.faces)
+      if (face.fault >= 0) face.fault = n_faults - 1 - face.fault;
+    const SplitNodes other_order = split_nodes(mesh.n_nodes(), mesh.faces);
+    expect_sound(mesh, other_order);
+    EXPECT_EQ(nodes_of(other_order.undecided), nodes_of(found.undecided));
+    n_split += found.split.size();
+    n_undecided += found.undecided.size();
+    for (const SplitNode& node : found.split)
+      most_copies = std::max(most_copies, static_cast<int>(node.sectors.size()));
+    if (::testing::Test::HasFailure()) FAIL() << "set " << set;
+  }
+  EXPECT_GE(most_copies, 4);
+  EXPECT_GT(n_split, 30 * n_undecided) << "where tips meet by chance";
+}
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, RandomFaults, ::testing::Values(2, 3));
+
+}  // namespace
+}  // namespace faultsim
