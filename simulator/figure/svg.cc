@@ -106,7 +106,7 @@ std::string fitted(const std::string& text, double width, double size) {
   return part.empty() ? "" : part + "…";
 }
 
-std::string json_in_html(std::string json) {
+std::string json_in_html(const std::string& json) {
   constexpr std::string_view kEscape = "\\u003c";
   std::string escaped;
   escaped.reserve(json.size());

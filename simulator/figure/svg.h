@@ -45,7 +45,7 @@ double text_width(std::string_view text, double size);
 std::string fitted(const std::string& text, double width, double size);
 
 /// JSON as the text of a script element of a page: no "<" in it can end the element.
-std::string json_in_html(std::string json);
+std::string json_in_html(const std::string& json);
 
 /// A drawing as a part of a page: in a box of class "chart", which scrolls where a screen is
 /// narrower than the drawing can be read at.

@@ -11,78 +11,15 @@
 #include <random>
 #include <set>
 
+#include "tests/unit/mesh/simplices.h"
+
 namespace faultsim {
 namespace {
 
 using Eigen::Vector3d;
+using test::made_of;
+using test::Simplices;
 using ::testing::ElementsAre;
-
-/// Triangles (of three corners) or tetrahedra, with the faults of their shared faces.
-struct Simplices {
-  std::vector<Vector3d> nodes;
-  std::vector<std::vector<int>> cells;
-  std::vector<SharedFace> faces;
-
-  int n_nodes() const { return static_cast<int>(nodes.size()); }
-  Vector3d centre(std::span<const int> of) const {
-    Vector3d sum = Vector3d::Zero();
-    int n = 0;
-    for (const int node : of) {
-      if (node < 0) continue;
-      sum += nodes[node];
-      ++n;
-    }
-    return sum / n;
-  }
-  Vector3d centre_of_cell(int cell) const { return centre(cells[cell]); }
-};
-
-/// Fills `faces` with what two cells share.
-void find_faces(Simplices& mesh) {
-  std::map<std::vector<int>, std::vector<int>> cells_of;
-  for (int c = 0; c < std::ssize(mesh.cells); ++c)
-    for (const int left_out : mesh.cells[c]) {
-      std::vector<int> face = mesh.cells[c];
-      std::erase(face, left_out);
-      std::ranges::sort(face);
-      cells_of[face].push_back(c);
-    }
-  for (const auto& [nodes, cells] : cells_of) {
-    if (cells.size() != 2) continue;
-    SharedFace face{{-1, -1, -1, -1}, {cells[0], cells[1]}};
-    std::ranges::copy(nodes, face.nodes.begin());
-    mesh.faces.push_back(face);
-  }
-}
-
-/// A square of n × n, or a cube of n × n × n, in cells of 1, each of simplices that share a
-/// diagonal.
-Simplices made_of(int n, int dimensions) {
-  Simplices mesh;
-  const int layers = dimensions == 3 ? n : 0;
-  const auto number = [n](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
-  for (int k = 0; k <= layers; ++k)
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) mesh.nodes.emplace_back(i, j, k);
-  // Along each order of the axes from the low corner of a cell to its high one.
-  std::vector<int> axes(dimensions);
-  for (int k = 0; k < std::max(layers, 1); ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        std::iota(axes.begin(), axes.end(), 0);
-        do {
-          std::array<int, 3> at = {i, j, k};
-          std::vector<int> cell = {number(i, j, k)};
-          for (const int axis : axes) {
-            ++at[axis];
-            cell.push_back(number(at[0], at[1], at[2]));
-          }
-          mesh.cells.push_back(cell);
-        } while (std::ranges::next_permutation(axes).found);
-      }
-  find_faces(mesh);
-  return mesh;
-}
 
 /// Faces between cells on different sides of a plane, whose centres a condition holds of.
 template <typename Condition>
