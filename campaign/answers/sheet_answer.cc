@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "campaign/answers/sheet_parts.h"
 #include "campaign/common/json.h"
@@ -361,7 +360,8 @@ std::string without_stop(std::string words) {
 /// "Highest level reached: amber (words), in 6 of 24 cases; red is possible in 9 more."
 std::string level_headline(const FaultSheet& sheet) {
   std::string text, possible;
-  for (const LevelShare& one : sheet.levels | std::views::reverse) {
+  for (auto level = sheet.levels.rbegin(); level != sheet.levels.rend(); ++level) {
+    const LevelShare& one = *level;
     const long n_open = one.counts.n_undecided + one.counts.n_unknown;
     if (one.counts.n_holds > 0) {
       text = concat("Highest level reached: ", one.level.name, " (", without_stop(one.level.words),

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "campaign/render/row_data.h"
 #include "campaign/render/shown.h"
@@ -88,8 +87,7 @@ std::string table_of(const AnswerTable& table) {
   const std::size_t most = table.is_sortable ? kRowsOfAPage : table.most_on_screen;
   const std::size_t n_shown = most == 0 ? n : std::min(n, most);
   std::string html = head_of(table, n_shown);
-  for (const std::vector<AnswerCell>& row : table.rows | std::views::take(n_shown))
-    html += html_row(table, row);
+  for (std::size_t k = 0; k < n_shown; ++k) html += html_row(table, table.rows[k]);
   html += "</tbody></table></div>\n";
   if (n_shown < n)
     html += table.is_sortable ? rows_as_data(table)

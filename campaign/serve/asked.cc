@@ -35,9 +35,10 @@ std::optional<Number> number_within(const char* name, const std::optional<std::s
 
 Asked::Asked(const Route& route, const HttpRequest& request) : route_(route), request_(request) {
   std::map<std::string, int> times;
-  for (const auto& [name, value] : request.query) {
-    const auto known = std::ranges::find_if(route.parameters,
-                                            [&](const Parameter& one) { return one.name == name; });
+  for (const auto& one : request.query) {
+    const std::string& name = one.first;
+    const auto known = std::ranges::find_if(
+        route.parameters, [&](const Parameter& parameter) { return parameter.name == name; });
     if (known == route.parameters.end()) {
       const std::vector names = mapped(route.parameters, &Parameter::name);
       throw HttpError(400, "parameters", concat(route.path, " takes no \"", name, "\""),

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <charconv>
-#include <ranges>
 #include <tuple>
 #include <utility>
 
@@ -275,7 +274,8 @@ const std::vector<Store::RankedPlace>& Store::selected(std::int64_t campaign,
       sql, campaign, query.stage, query.where.parameters);
   std::ranges::sort(places, {}, &RankedPlace::position);
   if (selected_.size() >= kMostKept) selected_.pop_front();
-  return selected_.emplace_back(key, std::move(places)).places;
+  selected_.push_back({key, std::move(places)});
+  return selected_.back().places;
 }
 
 /// All pages of an order are one sort, which is kept until the store changes; the other way round
@@ -307,8 +307,8 @@ const std::vector<Store::RankedPlace>& Store::order_by_score(std::int64_t campai
 void Store::score(std::int64_t campaign, const RankingQuery& query,
                   std::vector<RankedPlace>& places) const {
   if (places.empty()) return;
-  const auto [first, last] = std::ranges::minmax(places | std::views::transform(&RankedPlace::id));
-  const Scores scores = read_scores(*connection_, campaign, query, first, last);
+  const auto [first, last] = std::ranges::minmax_element(places, {}, &RankedPlace::id);
+  const Scores scores = read_scores(*connection_, campaign, query, first->id, last->id);
   auto next = scores.values.begin();
   for (RankedPlace& place : places) {
     const std::int64_t key = scores.by_position ? place.position : place.id;

@@ -322,7 +322,7 @@ class Store {
   Store(std::filesystem::path folder, std::unique_ptr<Connection> connection, std::string remark);
   std::vector<RankedCase> first_ranked(std::int64_t campaign, const RankingQuery& query) const;
   /// The query's cases by position, whatever they are ordered by.
-  const std::vector<RankedPlace>& selected(std::int64_t campaign, const RankingQuery& query) const;
+  const std::vector<RankedPlace>& selected(std::int64_t campaign, const RankingQuery& asked) const;
   /// Gives these, which lie by position, their scores.
   void score(std::int64_t campaign, const RankingQuery& query,
              std::vector<RankedPlace>& places) const;

@@ -42,7 +42,8 @@ std::string add_original(const Chosen& chosen, const Eigen::Vector3d& place,
   const StoredFault& fault = file.faults()[known->fault];
   const auto nearest = nearest_split(fault, place);
   if (!nearest) return words_of_original(chosen.picture, false);
-  figure::StressPath::Before& before = path.before.emplace();
+  path.before = figure::StressPath::Before{};
+  figure::StressPath::Before& before = *path.before;
   add_tractions(file, known->fault, *nearest, before);
   before.cohesion = known->friction.cohesion / kMegapascal;
   before.friction = std::tan(known->friction.static_friction_angle);

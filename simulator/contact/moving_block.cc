@@ -71,12 +71,12 @@ void RangedProduct::add(int range, Eigen::VectorXf& z) {
     if (step + kAhead < n_free) sums_[step + kAhead].fetch();
     const ShortColumns& before = block_.before(place);
     const ShortColumns& next = block_.before(places_[std::min(step + 1, n_steps - 1)]);
-    const Eigen::Vector3f own = x_.segment<kDofs>(kDofs * place);
+    const Eigen::Vector3f own = x_.segment<kDofs>(Eigen::Index{kDofs} * place);
     before.multiply_blocks(kBlocksInUnit * first, std::min(kBlocksInUnit * last, before.n_blocks()),
                            {own[0], own[1], own[2]}, x_.data(), z.data(), sums_[step], next);
     if (place >= kUnit * last) continue;
     const auto others = sums_[step].total();
-    z.segment<kDofs>(kDofs * place) +=
+    z.segment<kDofs>(Eigen::Index{kDofs} * place) +=
         block_.own(place) * own + Eigen::Vector3f(others[0], others[1], others[2]);
   }
   done_[range].n_steps.store(n_steps, std::memory_order_release);
@@ -119,7 +119,7 @@ void MovingBlock::add(const std::vector<int>& nodes) {
 
 /// What the node there does to itself and to those before it.
 void MovingBlock::gather(int place, const Columns& columns) {
-  const Eigen::Index n_before = kDofs * place;
+  const Eigen::Index n_before = Eigen::Index{kDofs} * place;
   Eigen::MatrixX3f gathered = Eigen::MatrixX3f::Zero(n_before + kDofs, kDofs);
   for (int c = 0; c < kDofs; ++c) {
     const double* h = columns[c];

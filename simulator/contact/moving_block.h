@@ -34,7 +34,7 @@ class MovingBlock {
   /// Adds nodes. @pre none of them is there, and no twins.
   void add(const std::vector<int>& nodes);
   /// What vectors over the dofs must have room for: n_vector() entries.
-  Eigen::Index n_vector() const { return ShortColumns::padded(kDofs * n_nodes()); }
+  Eigen::Index n_vector() const { return ShortColumns::padded(Eigen::Index{kDofs} * n_nodes()); }
   /// z := G x at the dofs of the nodes at these places; elsewhere z is anything.
   /// @pre x is 0 elsewhere.
   void multiply(const std::vector<int>& places, const Eigen::VectorXf& x, Eigen::VectorXf& z) const;

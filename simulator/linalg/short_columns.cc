@@ -51,7 +51,8 @@ float sum_of(const std::array<float, kLanes>& lanes) {
   for (int block = 0; block < c.n_blocks; ++block) {
     const auto [s0, s1, s2] = c.scales[block];
     const float f0 = s0 * f[0], f1 = s1 * f[1], f2 = s2 * f[2];
-    if (block < c.n_next) fetch(c.next + block * kBlock, sizeof(std::int16_t) * kBlock);
+    if (block < c.n_next)
+      fetch(c.next + std::ptrdiff_t{kBlock} * block, sizeof(std::int16_t) * kBlock);
     const std::int16_t *short0 = entries, *short1 = short0 + kScaled, *short2 = short1 + kScaled;
     float c0[kScaled], c1[kScaled], c2[kScaled];
     for (int r = 0; r < kScaled; ++r) c0[r] = short0[r];
@@ -94,7 +95,8 @@ ShortColumns::ShortColumns(const Eigen::MatrixX3f& columns)
     Triple scales;
     for (int c = 0; c < kColumns; ++c) {
       const float* from = columns.col(c).data() + first;
-      std::int16_t* to = entries_.data() + kColumns * first + c * kScaled;
+      std::int16_t* to =
+          entries_.data() + std::ptrdiff_t{kColumns} * first + std::ptrdiff_t{kScaled} * c;
       const float largest = columns.col(c).segment(first, n).cwiseAbs().maxCoeff();
       const float inverse = largest > kTiny ? kLargest / largest : 0;
       scales[static_cast<std::size_t>(c)] = largest > kTiny ? largest / kLargest : 0;

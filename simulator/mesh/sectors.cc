@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 
 namespace faultsim {
 namespace {
@@ -80,7 +81,7 @@ class NodeSplitter {
     std::vector<int> found;
     for (const Border& border : borders_) found.push_back(border.fault);
     std::ranges::sort(found);
-    found.erase(std::ranges::unique(found).begin(), found.end());
+    drop_repeated(found);
     return found;
   }
   SplitNode result() { return std::move(node_); }
@@ -94,7 +95,7 @@ class NodeSplitter {
     for (const int face : own)
       cells_.insert(cells_.end(), faces[face].cells.begin(), faces[face].cells.end());
     std::ranges::sort(cells_);
-    cells_.erase(std::ranges::unique(cells_).begin(), cells_.end());
+    drop_repeated(cells_);
     Classes classes(cells_.size());
     for (const int face : own)
       if (faces[face].fault < 0)
