@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -108,16 +109,15 @@ class CampaignTest : public ::testing::Test {
     }
     return false;
   }
-  /// Each case of the campaign has exactly one completed run, and the store is sound.
+  /// Each case of the campaign has exactly one completed run, and another one for its fields where
+  /// they were kept afterwards, and the store is sound.
   void expect_each_case_completed_once(std::int64_t campaign, int n_cases) {
     Store store = Store::open_reader(store_);
     EXPECT_EQ(store.campaign("").n_done, n_cases);
     for (int position = 1; position <= n_cases; ++position) {
-      int n_completed = 0;
-      for (const StoredRun& run : store.stored_case(campaign, std::to_string(position)).runs) {
-        n_completed += run.status == "completed";
-      }
-      EXPECT_EQ(n_completed, 1) << "case " << position;
+      const StoredCase one = store.stored_case(campaign, std::to_string(position));
+      const auto n_completed = std::ranges::count(one.runs, "completed", &StoredRun::status);
+      EXPECT_EQ(n_completed, one.fields == FieldsState::kept ? 2 : 1) << "case " << position;
     }
     EXPECT_THAT(store.integrity_problems(), ::testing::IsEmpty());
   }
