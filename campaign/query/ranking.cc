@@ -142,7 +142,7 @@ std::vector<std::int64_t> cases_ranked_first(const Store& store, const CampaignI
                 &RankedCase::id);
 }
 
-Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request) {
+Ranking make_ranking(const Store& store, const CampaignInfo& campaign, const RankRequest& request) {
   Ranking ranking;
   const Store::RankingQuery query = ranking_query(store, campaign, request, ranking);
   if (request.skip) ranking.n_rows = store.class_counts(campaign.id, query);

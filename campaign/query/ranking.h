@@ -58,7 +58,7 @@ struct Ranking {
 /// Asks the store. Throws InputError on a wrong expression, an unknown stage or fault, and where
 /// `by` would put areas, potencies or moments per metre of strike and in total in one order. Where
 /// the campaign's own order would, plane-strain cases are left out.
-Ranking make_ranking(const Store& store, const CampaignInfo& campaign, RankRequest request);
+Ranking make_ranking(const Store& store, const CampaignInfo& campaign, const RankRequest& request);
 
 /// How many cases reports and pages show in pictures: those ranked first in the campaign's own
 /// order.
