@@ -27,7 +27,8 @@ template <int Nodes>
 using CellMatrix = Eigen::Matrix<double, 3 * Nodes, 3 * Nodes>;
 using ElementMatrix = CellMatrix<8>;
 
-/// Throws InternalError when the cell is inverted at a Gauss point (check_quality comes first).
+/// Both throw InternalError where the cell is inverted at a Gauss point (check_quality comes
+/// first).
 Element make_element(const Mesh& mesh, int cell);
 Tetrahedron make_tetrahedron(const std::array<Eigen::Vector3d, 10>& nodes);
 

@@ -3,8 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
-#include <numeric>
 
+#include "simulator/common/disjoint_sets.h"
 #include "simulator/common/errors.h"
 
 namespace faultsim {
@@ -12,29 +12,6 @@ namespace {
 
 // Squares: a motion counts as free when what holds it is 1e-6 of what holds the best held one.
 constexpr double kFree = 1e-12;
-
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t n) : parent_(n) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int find(int i) {
-    while (parent_[i] != i) {
-      int& up = parent_[i];
-      up = parent_[up];
-      i = up;
-    }
-    return i;
-  }
-  void join(int i, int j) {
-    i = find(i);
-    j = find(j);
-    parent_[std::max(i, j)] = std::min(i, j);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 }  // namespace
 

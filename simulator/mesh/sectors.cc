@@ -4,29 +4,12 @@
 #include <numeric>
 #include <utility>
 
+#include "simulator/common/disjoint_sets.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
 
 namespace faultsim {
 namespace {
-
-/// Numbers 0 … n−1 in classes.
-class Classes {
- public:
-  explicit Classes(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int of(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  /// The smallest number stands for its class.
-  void join(int a, int b) {
-    a = of(a), b = of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// A face of a fault between two sectors of a node.
 struct Border {
@@ -36,28 +19,28 @@ struct Border {
 
 using Group = std::vector<int>;  ///< of sectors, ascending.
 
+/// Items by set, in the order in which they lie.
+std::vector<Group> by_set(const std::vector<int>& items, const std::vector<int>& set_of) {
+  std::vector<Group> sets;
+  for (std::size_t k = 0; k < items.size(); ++k) {
+    if (set_of[k] == std::ssize(sets)) sets.emplace_back();
+    sets[set_of[k]].push_back(items[k]);
+  }
+  return sets;
+}
+
 /// The parts of a group that borders hold together, but for those of one fault.
 std::vector<Group> parts_without(int fault, const Group& group, std::span<const Border> borders) {
   const auto place = [&](int sector) {
     const auto at = std::ranges::lower_bound(group, sector);
     return at != group.end() && *at == sector ? static_cast<int>(at - group.begin()) : -1;
   };
-  Classes classes(group.size());
+  DisjointSets sets(group.size());
   for (const Border& border : borders) {
     const int a = place(border.sectors[0]), b = place(border.sectors[1]);
-    if (border.fault != fault && a >= 0 && b >= 0) classes.join(a, b);
+    if (border.fault != fault && a >= 0 && b >= 0) sets.join(a, b);
   }
-  std::vector<Group> parts;
-  std::vector<int> part_of(group.size(), -1);
-  for (std::size_t k = 0; k < group.size(); ++k) {
-    const int root = classes.of(static_cast<int>(k));
-    if (part_of[root] < 0) {
-      part_of[root] = static_cast<int>(parts.size());
-      parts.emplace_back();
-    }
-    parts[part_of[root]].push_back(group[k]);
-  }
-  return parts;
+  return by_set(group, sets.numbered());
 }
 
 bool holds(const Group& group, int sector) { return std::ranges::binary_search(group, sector); }
@@ -96,20 +79,12 @@ class NodeSplitter {
       cells_.insert(cells_.end(), faces[face].cells.begin(), faces[face].cells.end());
     std::ranges::sort(cells_);
     drop_repeated(cells_);
-    Classes classes(cells_.size());
+    DisjointSets sets(cells_.size());
     for (const int face : own)
       if (faces[face].fault < 0)
-        classes.join(place(faces[face].cells[0]), place(faces[face].cells[1]));
-    sector_of_.assign(cells_.size(), -1);
-    for (std::size_t k = 0; k < cells_.size(); ++k) {
-      const int root = classes.of(static_cast<int>(k));
-      if (sector_of_[root] < 0) {
-        sector_of_[root] = static_cast<int>(node_.sectors.size());
-        node_.sectors.emplace_back();
-      }
-      sector_of_[k] = sector_of_[root];
-      node_.sectors[sector_of_[k]].push_back(cells_[k]);
-    }
+        sets.join(place(faces[face].cells[0]), place(faces[face].cells[1]));
+    sector_of_ = sets.numbered();
+    node_.sectors = by_set(cells_, sector_of_);
   }
 
   /// Faces with the same sector on both sides are those of a fault that ends near the node.

@@ -13,7 +13,8 @@ struct SharedFace {
   int fault = -1;            ///< -1 = rock.
 };
 
-/// Displacements on both sides of a fault at a node: u_plus − u_minus.
+/// What displacements on both sides of a fault at a node differ by: the mean of the plus side less
+/// that of the minus side. Where later jumps cut a side, its mean is that of their two sides.
 struct NodeJump {
   int fault;
   std::vector<int> minus, plus;  ///< copies of the node, numbers into SplitNode::sectors.
