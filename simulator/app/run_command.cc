@@ -151,7 +151,8 @@ ExitCode run_command(const RunArguments& arguments) {
   if (writer) writer->finish();
   if (scene.output.volume_fields) {
     const Mesh& mesh = is_coupled ? coupled->mesh() : prepared.bulk->bulk(0).problem().mesh;
-    write_volume(output.path(), mesh.nodes, mesh.cells, mesh.material, volume);
+    write_volume(output.path(), mesh.nodes, {mesh.cells.nodes(), mesh.cells.n_nodes()},
+                 mesh.material, volume);
   }
   nlohmann::json document = result_to_json(result);
   document["initial_state"] = initial_state_to_json(loaded.plan.initial);

@@ -171,7 +171,9 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
         quality.worst_position.z());
   }
   if (folder) {
-    write_volume(folder->path(), problem.mesh.nodes, problem.mesh.cells, problem.mesh.material, {});
+    write_volume(folder->path(), problem.mesh.nodes,
+                 {problem.mesh.cells.nodes(), problem.mesh.cells.n_nodes()}, problem.mesh.material,
+                 {});
     folder->commit();
     std::cerr << "wrote " << (output / "volume.xmf").string() << " (open it in ParaView)\n";
   }

@@ -1,6 +1,7 @@
 #include "simulator/condensation/condensation.h"
 
 #include <Eigen/Geometry>
+#include <span>
 #include <utility>
 
 #include "simulator/common/errors.h"
@@ -19,7 +20,8 @@ namespace {
 /// would have to carry it.
 void check_balance(const BulkProblem& problem, const LoadCase& load, const RunContext& context) {
   constexpr double kBalanced = 1e-6;  // of the sum of the absolute nodal forces
-  const Eigen::Matrix3Xd forces = nodal_stress_forces(problem.mesh, load.stress_sides, load.stress);
+  const Eigen::Matrix3Xd forces =
+      nodal_stress_forces(problem.mesh, load.stress_groups, load.stress);
   const Eigen::AlignedBox3d extent = extent_of(problem.mesh, [](int) { return true; });
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
   for (Eigen::Index i = 0; i < forces.cols(); ++i) {
@@ -63,8 +65,10 @@ InfluenceCell influence_cell(const BulkProblem& problem, int cell) {
   result.material = mesh.material[cell];
   result.region = pressure_region(problem, cell);
   if (result.region >= 0) result.fraction = mesh.region_fraction[cell];
-  result.volume = make_element(mesh, cell).volume / (mesh.plane_strain ? mesh.thickness : 1);
-  for (const int node : mesh.cells[cell]) result.centroid += mesh.nodes[node] / 8;
+  result.volume = volume_of(mesh, cell) / (mesh.plane_strain ? mesh.thickness : 1);
+  const std::span<const int> corners = mesh.cells.corners(cell);
+  for (const int node : corners)
+    result.centroid += mesh.nodes[node] / static_cast<double>(corners.size());
   return result;
 }
 
@@ -105,7 +109,8 @@ struct CondensedBulk::Impl {
 void CondensedBulk::Impl::factorise(const RunContext& context) {
   springs = loose_piece_springs(problem, dofs, geometry);
   context.progress(0.02, concat("assembling ", dofs.n_unknowns(), " unknowns"));
-  SparseMatrix k = assemble_stiffness(problem.mesh, problem.materials, dofs, problem.b_bar);
+  SparseMatrix k =
+      assemble_stiffness(problem.mesh, problem.materials, dofs, problem.mean_dilatation);
   for (int g = 0; g < dofs.n_jump(); ++g) {
     k.valuePtr()[k.outerIndexPtr()[dofs.n_bulk() + g]] += springs[g];  // the diagonal comes first
   }
@@ -127,7 +132,7 @@ void CondensedBulk::Impl::factorise(const RunContext& context) {
 void CondensedBulk::Impl::make_loads(const RunContext& context) {
   for (std::size_t k = 0; k < problem.loads.size(); ++k) {
     loads.push_back(unit_load(problem, dofs, static_cast<int>(k)));
-    if (dofs.pinned() && !problem.loads[k].stress_sides.empty()) {
+    if (dofs.pinned() && !problem.loads[k].stress_groups.empty()) {
       check_balance(problem, problem.loads[k], context);
     }
   }

@@ -27,9 +27,9 @@ void add_pressure_pair(std::vector<PressurePair>& pairs, const PressurePair& pai
   }
 }
 
-/// Adds a face's quarter to the sums of one of its nodes.
-void add_quarter(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-                 const FaultFace& face, OperatorNode& node) {
+/// Adds a face's corner to the sums of one of its nodes.
+void add_corner(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
+                const FaultFace& face, OperatorNode& node) {
   const double area = corner_area(face);
   const auto material = [&](int cell) { return materials.at(mesh.material[cell]); };
   const ElasticMaterial minus = material(face.minus_cell), plus = material(face.plus_cell);
@@ -45,9 +45,10 @@ void add_quarter(const Mesh& mesh, const std::vector<ElasticMaterial>& materials
 
 /// Lengthens a node's edges to those of a face, each by the direction that it is nearer to.
 void add_edges(const FaultSurface& fault, const FaultFace& face, OperatorNode& node) {
-  for (std::size_t i = 0; i < 4; ++i) {
+  const std::size_t n = face.n_corners();
+  for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Vector3d along =
-        fault.points[face.points[(i + 1) % 4]] - fault.points[face.points[i]];
+        fault.points[face.points[(i + 1) % n]] - fault.points[face.points[i]];
     const bool down = std::abs(along.dot(node.dip)) > std::abs(along.dot(node.strike));
     double& edge = down ? node.edge_dip : node.edge_strike;
     edge = std::max(edge, along.norm());
@@ -61,7 +62,7 @@ void average_over_faces(const Mesh& mesh, const std::vector<ElasticMaterial>& ma
     for (int corner : face.nodes) {
       if (corner < 0) continue;
       OperatorNode& node = nodes[corner];
-      add_quarter(mesh, materials, face, node);
+      add_corner(mesh, materials, face, node);
       area[corner] += corner_area(face);
       add_edges(fault, face, node);
     }
@@ -83,7 +84,10 @@ OperatorFault surface_of(const FaultSurface& fault, int first_node) {
   surface.n_nodes = static_cast<int>(fault.nodes.size());
   for (const int node : fault.node_of_point)
     surface.node_of_point.push_back(node < 0 ? -1 : first_node + node);
-  for (const FaultFace& face : fault.faces) surface.faces.push_back(face.points);
+  for (const FaultFace& face : fault.faces) {
+    surface.faces.push_back(face.points);
+    if (face.n_corners() == 3) surface.faces.back()[3] = face.points[2];
+  }
   return surface;
 }
 

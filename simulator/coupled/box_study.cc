@@ -30,7 +30,7 @@ BulkProblem box_study(int cells_per_metre) {
       {Side::z_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};
   LoadCase load;
   load.key.kind = LoadKey::Kind::boundary;
-  load.stress_sides = {Side::z_max};
+  load.stress_groups = {Side::z_max};
   load.stress(2, 2) = -1e6;
   load.stress(0, 2) = load.stress(2, 0) = 0.5e6;
   problem.loads = {load};

@@ -36,7 +36,9 @@ TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem, LoosePieces loose) : prob
   const DofMap condensed(problem.mesh, problem.conditions, n_loads);
   require_held(problem.mesh, condensed);
   Mesh& mesh = problem_.mesh;
+  FAULTSIM_DEMAND(mesh.cells.shape() == CellShape::hexahedron, "jumps that are tied at mid-sides");
   faults_.swap(mesh.faults);
+  mesh.copies.clear();
   tie_closed_nodes(condensed, faults_, mesh);
   dofs_ = std::make_unique<DofMap>(mesh, problem.conditions, n_loads);
   if (loose == LoosePieces::refused) require_pieces_held();
@@ -84,7 +86,8 @@ void TwoSidedBulk::assemble() {
       }
     }
   }
-  const SparseMatrix lower = assemble_stiffness(mesh, problem_.materials, *dofs_, problem_.b_bar);
+  const SparseMatrix lower =
+      assemble_stiffness(mesh, problem_.materials, *dofs_, problem_.mean_dilatation);
   mean_diagonal_ = lower.diagonal().mean();
   std::vector<Eigen::Triplet<double, long>> entries;
   entries.reserve(2 * lower.nonZeros() + n_u);

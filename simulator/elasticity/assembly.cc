@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <span>
+#include <type_traits>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
@@ -17,9 +19,9 @@ CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
   CellUnknowns result;
   result.begin.push_back(0);
   std::vector<int> list;
-  for (const auto& cell : mesh.cells) {
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     list.clear();
-    for (int node : cell) {
+    for (const int node : mesh.cells[cell]) {
       for (int c = 0; c < 3; ++c) {
         for (const DofMap::Term& term : dofs.terms(node, c)) list.push_back(term.unknown);
       }
@@ -90,15 +92,16 @@ SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
 
 /// Adds Tᵀ K_e T for one cell. `local` (by unknown: place in the cell's list) and `matrix` are
 /// workspace.
-void add_cell(const std::array<int, 8>& nodes, const ElementMatrix& k_e, double scale,
+template <int Nodes>
+void add_cell(std::span<const int> nodes, const CellMatrix<Nodes>& k_e, double scale,
               const DofMap& dofs, const int* unknowns, int n, std::vector<int>& local,
               Eigen::MatrixXd& matrix, SparseMatrix& k) {
   for (int i = 0; i < n; ++i) local[unknowns[i]] = i;
   matrix.setZero(n, n);
-  for (int q = 0; q < 24; ++q) {
+  for (int q = 0; q < 3 * Nodes; ++q) {
     for (const DofMap::Term& b : dofs.terms(nodes[q / 3], q % 3)) {
       const int column = local[b.unknown];
-      for (int p = 0; p < 24; ++p) {
+      for (int p = 0; p < 3 * Nodes; ++p) {
         for (const DofMap::Term& a : dofs.terms(nodes[p / 3], p % 3)) {
           matrix(local[a.unknown], column) += a.coefficient * b.coefficient * k_e(p, q);
         }
@@ -119,7 +122,7 @@ void add_cell(const std::array<int, 8>& nodes, const ElementMatrix& k_e, double 
 }  // namespace
 
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-                                const DofMap& dofs, bool b_bar) {
+                                const DofMap& dofs, bool mean_dilatation) {
   const CellUnknowns cells = cell_unknowns(mesh, dofs);
   SparseMatrix k = make_pattern(cells, dofs.n_unknowns());
   const double scale = mesh.plane_strain ? 1 / mesh.thickness : 1;
@@ -127,10 +130,12 @@ SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMater
   Eigen::MatrixXd matrix;
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     const auto& material = materials.at(mesh.material[cell]);
-    const Element element = make_element(mesh, static_cast<int>(cell));
     const int n = static_cast<int>(cells.begin[cell + 1] - cells.begin[cell]);
-    add_cell(mesh.cells[cell], element_stiffness(element, material, b_bar), scale, dofs,
-             cells.unknowns.data() + cells.begin[cell], n, local, matrix, k);
+    with_element(mesh, static_cast<int>(cell), [&](const auto& element) {
+      constexpr int kNodes = std::remove_cvref_t<decltype(element)>::kNodes;
+      add_cell<kNodes>(mesh.cells[cell], element_stiffness(element, material, mean_dilatation),
+                       scale, dofs, cells.unknowns.data() + cells.begin[cell], n, local, matrix, k);
+    });
   }
   return k;
 }

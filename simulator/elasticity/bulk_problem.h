@@ -11,9 +11,9 @@ namespace faultsim {
 
 /// One unit load of a family: exactly one of the three kinds.
 struct LoadCase {
-  LoadKey key;                     ///< what the scene calls it.
-  int region = -1;                 ///< ≥ 0: b Δp = 1 Pa where Mesh::region is this.
-  std::vector<Side> stress_sides;  ///< non-empty: stress change Δσ on these sides.
+  LoadKey key;                               ///< what the scene calls it.
+  int region = -1;                           ///< ≥ 0: b Δp = 1 Pa where Mesh::region is this.
+  std::vector<BoundaryGroup> stress_groups;  ///< non-empty: stress change Δσ on these.
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   bool displacement = false;  ///< the prescribed displacements of this load's index.
 };
@@ -26,7 +26,7 @@ struct BulkProblem {
   std::vector<DisplacementCondition> conditions;
   std::vector<LoadCase> loads;
   std::vector<std::pair<std::string, Eigen::Vector3d>> observation_points;
-  bool b_bar = true;
+  bool mean_dilatation = true;  ///< B-bar of hexahedra.
   bool half_domain = false;
 };
 

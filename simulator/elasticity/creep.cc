@@ -1,17 +1,18 @@
 #include "simulator/elasticity/creep.h"
 
 #include <cmath>
+#include <span>
+#include <type_traits>
 
 #include "simulator/common/errors.h"
 
 namespace faultsim {
 namespace {
 
-using CellDeviator = Eigen::Map<Eigen::Matrix<double, 6, 8>>;
-
 /// Deviator of the symmetric gradient of u at a Gauss point: xx yy zz xy yz xz.
-Eigen::Matrix<double, 6, 1> strain_deviator(const Eigen::Matrix<double, 3, 8>& u,
-                                            const Eigen::Matrix<double, 8, 3>& gradient) {
+template <int Nodes>
+Eigen::Matrix<double, 6, 1> strain_deviator(const Eigen::Matrix<double, 3, Nodes>& u,
+                                            const Eigen::Matrix<double, Nodes, 3>& gradient) {
   const Eigen::Matrix3d g = u * gradient;
   const double mean = g.trace() / 3;
   Eigen::Matrix<double, 6, 1> e;
@@ -24,6 +25,23 @@ Eigen::Matrix3d tensor(const Eigen::Matrix<double, 6, 1>& s) {
   Eigen::Matrix3d t;
   t << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
   return t;
+}
+
+/// Advances the deviators s of a cell at its Gauss points (6 x points); returns ∫ s ∇N (3 x nodes).
+/// @param stiffness  Pa, of the strain's deviator over the step.
+template <int Nodes, int Points>
+Eigen::Matrix<double, 3, Nodes> advance_cell(const CellElement<Nodes, Points>& element,
+                                             const Eigen::Matrix<double, 3, Nodes>& u, double decay,
+                                             double stiffness,
+                                             Eigen::Ref<Eigen::Matrix<double, 6, Points>> s) {
+  Eigen::Matrix<double, 3, Nodes> force = Eigen::Matrix<double, 3, Nodes>::Zero();
+  for (std::size_t g = 0; g < element.weight.size(); ++g) {
+    const auto point = static_cast<Eigen::Index>(g);
+    s.col(point) =
+        decay * s.col(point) + stiffness * strain_deviator<Nodes>(u, element.gradient[g]);
+    force += element.weight[g] * tensor(s.col(point)) * element.gradient[g].transpose();
+  }
+  return force;
 }
 
 }  // namespace
@@ -48,7 +66,9 @@ CreepCells::CreepCells(const Mesh& mesh, const std::vector<ElasticMaterial>& mat
 }
 
 CreepStress CreepCells::at_rest() const {
-  return {Eigen::MatrixXd::Zero(48, static_cast<Eigen::Index>(cells_.size())),
+  const Eigen::Index rows =
+      6 * (mesh_.cells.shape() == CellShape::hexahedron ? Element::kPoints : Tetrahedron::kPoints);
+  return {Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(cells_.size())),
           Eigen::MatrixXd::Zero(dofs_.n_unknowns(), static_cast<Eigen::Index>(materials_.size()))};
 }
 
@@ -58,28 +78,27 @@ void CreepCells::advance(const Eigen::Matrix3Xd& displacement, const std::vector
   const double scale = mesh_.plane_strain ? 1 / mesh_.thickness : 1;
   stress.force.setZero();
   for (std::size_t i = 0; i < cells_.size(); ++i) {
-    const auto& nodes = mesh_.cells[cells_[i]];
+    const std::span<const int> nodes = mesh_.cells[cells_[i]];
     const auto m = static_cast<std::size_t>(material_of_[i]);
     const double stiffness = 2 * shear_modulus_[m] * step[m].shear_factor;
-    const Element element = make_element(mesh_, cells_[i]);
-    Eigen::Matrix<double, 3, 8> u;
-    for (int a = 0; a < 8; ++a) u.col(a) = displacement.col(nodes[a]);
-    CellDeviator s(stress.deviator.col(static_cast<Eigen::Index>(i)).data());
-    Eigen::Matrix<double, 3, 8> force = Eigen::Matrix<double, 3, 8>::Zero();
-    for (std::size_t g = 0; g < 8; ++g) {
-      const auto point = static_cast<Eigen::Index>(g);
-      s.col(point) =
-          step[m].decay * s.col(point) + stiffness * strain_deviator(u, element.gradient[g]);
-      force += element.weight[g] * tensor(s.col(point)) * element.gradient[g].transpose();
-    }
-    for (int a = 0; a < 8; ++a) {
-      for (int c = 0; c < 3; ++c) {
-        for (const DofMap::Term& term : dofs_.terms(nodes[a], c)) {
-          stress.force(term.unknown, static_cast<Eigen::Index>(m)) +=
-              scale * term.coefficient * force(c, a);
+    with_element(mesh_, cells_[i], [&](const auto& element) {
+      constexpr int kNodes = std::remove_cvref_t<decltype(element)>::kNodes;
+      constexpr int kPoints = std::remove_cvref_t<decltype(element)>::kPoints;
+      Eigen::Matrix<double, 3, kNodes> u;
+      for (int a = 0; a < kNodes; ++a) u.col(a) = displacement.col(nodes[a]);
+      Eigen::Map<Eigen::Matrix<double, 6, kPoints>> s(
+          stress.deviator.col(static_cast<Eigen::Index>(i)).data());
+      const Eigen::Matrix<double, 3, kNodes> force =
+          advance_cell<kNodes, kPoints>(element, u, step[m].decay, stiffness, s);
+      for (int a = 0; a < kNodes; ++a) {
+        for (int c = 0; c < 3; ++c) {
+          for (const DofMap::Term& term : dofs_.terms(nodes[a], c)) {
+            stress.force(term.unknown, static_cast<Eigen::Index>(m)) +=
+                scale * term.coefficient * force(c, a);
+          }
         }
       }
-    }
+    });
   }
 }
 

@@ -11,7 +11,8 @@ namespace faultsim {
 
 /// The deviatoric stress change s of the creeping cells, and the nodal forces it makes.
 struct CreepStress {
-  /// Pa, tensor components xx yy zz xy yz xz at each of the 8 Gauss points: 48 x n_cells.
+  /// Pa, tensor components xx yy zz xy yz xz at each Gauss point of a cell (8 of a hexahedron, 4 of
+  /// a tetrahedron): 48 or 24 x n_cells.
   Eigen::MatrixXd deviator;
   /// Pᵀ ∫ ε(v):s over the cells of one viscous material, N: n_unknowns x n_materials. A step takes
   /// (1 − decay) of it as load, with the decay of each material.

@@ -2,6 +2,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
@@ -19,10 +20,10 @@ class DofMapBuilder {
         map_(map),
         n_nodes_(static_cast<int>(mesh.nodes.size())),
         fixed_(mesh.nodes.size(), {false, false, false}),
-        pair_(mesh.nodes.size(), -1) {}
+        copy_(mesh.nodes.size(), -1) {}
 
   void prescribe(const std::vector<DisplacementCondition>& conditions, int n_loads);
-  void collect_pairs();
+  void collect_jumps();
   void pin();
   void fix_y();
   void place_jumps();
@@ -32,15 +33,22 @@ class DofMapBuilder {
   void share_prescribed();
 
  private:
-  struct Pair {
-    int minus, plus;  // roots
+  struct Jump {
     const FaultNode* node;
-    std::array<int, 3> jump = {-1, -1, -1};
+    std::array<int, 3> unknown = {-1, -1, -1};
+  };
+  /// Whether a component is fixed on the copies that a jump moves.
+  struct Held {
+    std::array<bool, 3> on_some = {false, false, false}, on_all = {true, true, true};
   };
 
   int root(int node) const { return mesh_.tied_to.empty() ? node : mesh_.tied_to[node]; }
   std::array<bool, 3>& fixed(int node) { return fixed_[node]; }
   bool fix(int node, std::size_t c);
+  void write_share(const JumpShare& share, int c);
+  Jump& jump(const JumpShare& share) { return jumps_[map_.jump_begin_[share.fault] + share.node]; }
+  std::vector<Held> held() const;
+  void share_fixed();
   bool may_pin(const Pieces& pieces, int piece, int node) const;
   std::vector<int> three_far_nodes(const Pieces& pieces, int piece) const;
 
@@ -48,8 +56,8 @@ class DofMapBuilder {
   DofMap& map_;
   int n_nodes_;
   std::vector<std::array<bool, 3>> fixed_;  // by root
-  std::vector<int> pair_;                   // by root: index into pairs_, -1 = not duplicated
-  std::vector<Pair> pairs_;                 // fault by fault
+  std::vector<int> copy_;                   // by root: index into Mesh::copies, -1 = not cut
+  std::vector<Jump> jumps_;                 // fault by fault
   std::vector<std::array<int, 3>> bulk_;    // by root: unknowns of ū, -1 = prescribed
 };
 
@@ -67,8 +75,8 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
     FAULTSIM_DEMAND(condition.load >= -1 && condition.load < n_loads, "load ", condition.load);
     std::vector<int> nodes;
     for (const BoundaryFace& face : mesh_.boundary) {
-      if (face.side != condition.side) continue;
-      for (int node : face.nodes) nodes.push_back(root(node));
+      if (face.group != condition.group) continue;
+      for (const int node : face.nodes()) nodes.push_back(root(node));
     }
     std::ranges::sort(nodes);
     drop_repeated(nodes);
@@ -84,23 +92,25 @@ void DofMapBuilder::prescribe(const std::vector<DisplacementCondition>& conditio
   for (auto& list : map_.prescribed_) std::ranges::sort(list);
 }
 
-void DofMapBuilder::collect_pairs() {
+void DofMapBuilder::collect_jumps() {
   for (const FaultSurface& fault : mesh_.faults) {
-    map_.jump_begin_.push_back(static_cast<int>(pairs_.size()));
+    map_.jump_begin_.push_back(static_cast<int>(jumps_.size()));
     for (const FaultNode& node : fault.nodes) {
-      const Pair pair{root(node.minus_node), root(node.plus_node), &node};
-      for (int side : {pair.minus, pair.plus}) {
-        FAULTSIM_DEMAND(pair_[side] < 0, "node ", side, " belongs to two fault nodes");
-        pair_[side] = static_cast<int>(pairs_.size());
-      }
-      FAULTSIM_DEMAND(pair.minus != pair.plus, "node ", pair.minus, " is tied across a fault");
-      pairs_.push_back(pair);
+      FAULTSIM_DEMAND(root(node.minus_node) != root(node.plus_node), "node ", node.minus_node,
+                      " is tied across a fault");
+      jumps_.push_back({&node});
     }
+  }
+  for (std::size_t k = 0; k < mesh_.copies.size(); ++k) {
+    const int node = mesh_.copies[k].node;
+    FAULTSIM_DEMAND(root(node) == node && copy_[node] < 0, "node ", node,
+                    " is tied or twice among the copies");
+    copy_[node] = static_cast<int>(k);
   }
 }
 
 bool DofMapBuilder::may_pin(const Pieces& pieces, int piece, int node) const {
-  return pieces.of_node[node] == piece && root(node) == node && pair_[node] < 0;
+  return pieces.of_node[node] == piece && root(node) == node && copy_[node] < 0;
 }
 
 /// Three nodes of the piece, off the faults and far apart: from the centre, from the first, and
@@ -172,30 +182,53 @@ void DofMapBuilder::fix_y() {
   for (auto& flags : fixed_) flags[1] = true;
 }
 
+/// Per jump; copies in the middle of a side move with jumps of other places, which are not asked.
+std::vector<DofMapBuilder::Held> DofMapBuilder::held() const {
+  std::vector<Held> all(jumps_.size());
+  for (const NodeCopy& copy : mesh_.copies) {
+    for (const JumpShare& share : copy.shares) {
+      const int k = map_.jump_begin_[share.fault] + share.node;
+      const NodeCopy& own = mesh_.copies[copy_[root(jumps_[k].node->minus_node)]];
+      if (own.first != copy.first) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        all[k].on_some[c] = all[k].on_some[c] || fixed_[copy.node][c];
+        all[k].on_all[c] = all[k].on_all[c] && fixed_[copy.node][c];
+      }
+    }
+  }
+  return all;
+}
+
+/// One value serves all copies at a place; some of them may have been fixed alone.
+void DofMapBuilder::share_fixed() {
+  for (const NodeCopy& copy : mesh_.copies) {
+    for (std::size_t c = 0; c < 3; ++c)
+      fixed(copy.first)[c] = fixed(copy.first)[c] || fixed(copy.node)[c];
+  }
+  for (const NodeCopy& copy : mesh_.copies) fixed(copy.node) = fixed(copy.first);
+}
+
 void DofMapBuilder::place_jumps() {
   constexpr double kParallel = 1 - 1e-9;
   constexpr int kJumps = 0;  // until they are numbered
-  for (Pair& pair : pairs_) {
+  const std::vector<Held> all_held = held();
+  share_fixed();
+  for (std::size_t k = 0; k < jumps_.size(); ++k) {
+    const FaultNode& node = *jumps_[k].node;
     bool locked = false;
     std::array<bool, 3> removed = {false, false, false};
     for (std::size_t c = 0; c < 3; ++c) {
-      const bool on_minus = fixed(pair.minus)[c], on_plus = fixed(pair.plus)[c];
-      if (!on_minus && !on_plus) continue;
+      if (!all_held[k].on_some[c]) continue;
       const auto along = [&](const Eigen::Vector3d& direction) {
         return std::abs(direction[static_cast<int>(c)]) > kParallel;
       };
-      removed[1] = removed[1] || along(pair.node->strike);
-      removed[2] = removed[2] || along(pair.node->dip);
-      locked =
-          locked || on_minus != on_plus || !(along(pair.node->strike) || along(pair.node->dip));
-      // One value serves both sides; a locked node may have been fixed on one of them only.
-      fixed(pair.minus)[c] = fixed(pair.plus)[c] = true;
+      removed[1] = removed[1] || along(node.strike);
+      removed[2] = removed[2] || along(node.dip);
+      locked = locked || !all_held[k].on_all[c] || !(along(node.strike) || along(node.dip));
     }
-    if (locked) {
-      map_.locked_.push_back(mesh_.nodes[pair.node->minus_node]);
-    }
+    if (locked) map_.locked_.push_back(mesh_.nodes[node.minus_node]);
     for (std::size_t c = 0; c < 3; ++c) {
-      if (!locked && !removed[c]) pair.jump[c] = kJumps;
+      if (!locked && !removed[c]) jumps_[k].unknown[c] = kJumps;
     }
   }
   number_jumps();
@@ -204,31 +237,28 @@ void DofMapBuilder::place_jumps() {
 /// Fault by fault from the top down, so that at one depth those along strike follow each other:
 /// faults slip in bands along strike, and what is asked of their H is long parts of few columns.
 void DofMapBuilder::number_jumps() {
-  std::vector<Pair*> order;
+  std::vector<Jump*> order;
   for (std::size_t f = 0; f < mesh_.faults.size(); ++f) {
     const auto first = std::ssize(order);
     for (std::size_t k = 0; k < mesh_.faults[f].nodes.size(); ++k)
-      order.push_back(&pairs_[static_cast<std::size_t>(map_.jump_begin_[f]) + k]);
-    std::stable_sort(order.begin() + first, order.end(), [&](const Pair* a, const Pair* b) {
+      order.push_back(&jumps_[static_cast<std::size_t>(map_.jump_begin_[f]) + k]);
+    std::stable_sort(order.begin() + first, order.end(), [&](const Jump* a, const Jump* b) {
       return mesh_.nodes[a->node->minus_node].z() > mesh_.nodes[b->node->minus_node].z();
     });
   }
-  for (Pair* pair : order)
-    for (int& jump : pair->jump)
-      if (jump >= 0) jump = map_.n_jump_++;
-  for (const Pair& pair : pairs_) map_.jump_.push_back(pair.jump);
+  for (Jump* one : order)
+    for (int& unknown : one->unknown)
+      if (unknown >= 0) unknown = map_.n_jump_++;
+  for (const Jump& one : jumps_) map_.jump_.push_back(one.unknown);
 }
 
 void DofMapBuilder::number_bulk() {
   bulk_.assign(mesh_.nodes.size(), {-1, -1, -1});
   for (int node = 0; node < n_nodes_; ++node) {
     if (root(node) != node) continue;
-    const int index = pair_[node];
-    int other = node;
-    if (index >= 0) {
-      const Pair& pair = pairs_[index];
-      other = pair.minus == node ? pair.plus : pair.minus;
-      if (other < node) continue;  // numbered with it
+    if (copy_[node] >= 0 && mesh_.copies[copy_[node]].first < node) {
+      bulk_[node] = bulk_[mesh_.copies[copy_[node]].first];
+      continue;
     }
     auto& unknowns = bulk_[node];
     bool has_any = false;
@@ -238,54 +268,57 @@ void DofMapBuilder::number_bulk() {
       map_.bulk_group_.push_back(map_.n_groups_);
       has_any = true;
     }
-    bulk_[other] = unknowns;
     if (has_any) ++map_.n_groups_;
   }
 }
 
 void DofMapBuilder::write_terms() {
   map_.begin_.push_back(0);
+  const std::vector<JumpShare> none;
   for (int node = 0; node < n_nodes_; ++node) {
     const int own = root(node);
-    const int index = pair_[own];
+    const std::vector<JumpShare>& shares = copy_[own] < 0 ? none : mesh_.copies[copy_[own]].shares;
     for (std::size_t c = 0; c < 3; ++c) {
       const int unknown = bulk_[own][c];
       if (unknown >= 0) map_.terms_.push_back({unknown, 1});
-      if (index >= 0) {
-        const Pair& pair = pairs_[index];
-        const double half = pair.plus == own ? 0.5 : -0.5;
-        const std::array<const Eigen::Vector3d*, 3> axes = {&pair.node->normal, &pair.node->strike,
-                                                            &pair.node->dip};
-        for (std::size_t j = 0; j < 3; ++j) {
-          const double coefficient = half * (*axes[j])[static_cast<int>(c)];
-          // A fixed component has no part in the jumps that are left; what rounding leaves goes.
-          if (pair.jump[j] < 0 || coefficient == 0 || fixed(own)[c]) continue;
-          map_.terms_.push_back({map_.n_bulk_ + pair.jump[j], coefficient});
-        }
+      // A fixed component has no part in the jumps that are left; what rounding leaves goes.
+      for (const JumpShare& share : shares) {
+        if (!fixed(own)[c]) write_share(share, static_cast<int>(c));
       }
       map_.begin_.push_back(static_cast<int>(map_.terms_.size()));
     }
   }
 }
 
-/// Tied nodes and the other side of a fault have the same prescribed value.
+/// Of component c of the displacement.
+void DofMapBuilder::write_share(const JumpShare& share, int c) {
+  const Jump& moved = jump(share);
+  const FaultNode& node = *moved.node;
+  const std::array<const Eigen::Vector3d*, 3> axes = {&node.normal, &node.strike, &node.dip};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const double coefficient = share.weight * (*axes[j])[c];
+    if (moved.unknown[j] < 0 || coefficient == 0) continue;
+    map_.terms_.push_back({map_.n_bulk_ + moved.unknown[j], coefficient});
+  }
+}
+
+/// Tied nodes and the other copies at a place have the same prescribed value.
 void DofMapBuilder::share_prescribed() {
   for (auto& list : map_.prescribed_) {
-    const auto find = [&](int key) {
-      const auto at = std::ranges::lower_bound(list, std::pair(key, -HUGE_VAL));
-      return at != list.end() && at->first == key ? at : list.end();
-    };
+    if (list.empty()) continue;
+    std::map<int, double> given(list.begin(), list.end());
+    for (const auto& [key, value] : list) {
+      const int copy = copy_[key / 3];
+      if (copy >= 0) given.emplace(3 * mesh_.copies[copy].first + key % 3, value);
+    }
     std::vector<std::pair<int, double>> all;
-    for (int node = 0; node < n_nodes_ && !list.empty(); ++node) {
+    for (int node = 0; node < n_nodes_; ++node) {
       const int own = root(node);
-      const int index = pair_[own];
+      const int first = copy_[own] < 0 ? own : mesh_.copies[copy_[own]].first;
       for (int c = 0; c < 3; ++c) {
-        auto found = find(3 * own + c);
-        if (found == list.end() && index >= 0) {
-          const Pair& pair = pairs_[index];
-          found = find(3 * (pair.minus == own ? pair.plus : pair.minus) + c);
-        }
-        if (found != list.end()) all.emplace_back(3 * node + c, found->second);
+        auto value = given.find(3 * own + c);
+        if (value == given.end()) value = given.find(3 * first + c);
+        if (value != given.end()) all.emplace_back(3 * node + c, value->second);
       }
     }
     list = std::move(all);
@@ -296,7 +329,7 @@ DofMap::DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& condi
                int n_loads) {
   DofMapBuilder builder(mesh, *this);
   builder.prescribe(conditions, n_loads);
-  builder.collect_pairs();
+  builder.collect_jumps();
   builder.pin();
   if (mesh.plane_strain) builder.fix_y();
   builder.place_jumps();

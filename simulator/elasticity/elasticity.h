@@ -19,10 +19,10 @@ struct ElasticMaterial {
   double shear_factor = 1;  ///< of the shear modulus that acts in a time step (MaxwellStep).
 };
 
-/// Displacement prescribed on a side: components, and u(x) = translation + gradient x (per unit
-/// factor).
+/// Displacement prescribed on a group of boundary faces: components, and u(x) = translation +
+/// gradient x (per unit factor).
 struct DisplacementCondition {
-  Side side;
+  BoundaryGroup group;
   std::array<bool, 3> components;
   Eigen::Vector3d translation;
   Eigen::Matrix3d gradient;
@@ -33,16 +33,17 @@ struct DisplacementCondition {
 double shear_modulus(const ElasticMaterial& material);
 
 /// The linear map from unknowns to nodal displacements, u = P x + Σ_k c_k d_k (docs/model.md, 8):
-/// x = (r, g): r all independent displacements (ū on duplicated nodes), g the jumps in the local
-/// frame, *last*; u± = ū ± ½ R g. Ties, plane strain and prescribed displacements are in P and d.
+/// x = (r, g): r all independent displacements (ū at places with copies), g the jumps in the local
+/// frame, *last*; a copy has u = ū + Σ weight R g (NodeCopy). Ties, plane strain and prescribed
+/// displacements are in P and d.
 class DofMap {
  public:
-  /// Rules (docs/model.md, section 3): a jump component along a direction that is fixed on both
-  /// sides is removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is
-  /// locked, and so is one that is fixed on one side only. Where sides share an edge, the condition
-  /// listed first gives the value of a component. If no component is prescribed at all, the rigid
-  /// motions of the body (6; fewer with ties or in plane strain) are pinned at three nodes off the
-  /// faults: reactions there must vanish.
+  /// Rules (docs/model.md, section 3): a jump component along a direction that is fixed on all
+  /// copies is removed; a node where a fixed direction is not one of (n, strike, dip), or is n, is
+  /// locked, and so is one that is fixed on some copies only. Where sides share an edge, the
+  /// condition listed first gives the value of a component. If no component is prescribed at all,
+  /// the rigid motions of the body (6; fewer with ties or in plane strain) are pinned at three
+  /// nodes off the faults: reactions there must vanish.
   DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& conditions, int n_loads);
 
   struct Term {
@@ -84,27 +85,27 @@ class DofMap {
   friend class DofMapBuilder;
 };
 
-/// K = Pᵀ K_full P (n x n, lower triangle, sorted columns): Q1 hexahedra, 2x2x2 Gauss points,
-/// B-bar (mean dilatation) when b_bar. Deterministic summation order. In plane strain the matrix
-/// and all loads are per metre of thickness.
+/// K = Pᵀ K_full P (n x n, lower triangle, sorted columns) of cells as in element.h. Deterministic
+/// summation order. In plane strain the matrix and all loads are per metre of thickness.
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-                                const DofMap& dofs, bool b_bar);
+                                const DofMap& dofs, bool mean_dilatation);
 
 /// f = Pᵀ ∫ div v: b Δp = 1 Pa in the region, times the cells' volume fractions.
 Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region);
 /// f = Pᵀ ∫_cell div v: what an isotropic eigenstress −1 Pa in one cell adds to the nodal forces, N
 /// per Pa, as (unknown, value), each unknown once, ascending.
 std::vector<std::pair<int, double>> dilatation_load(const Mesh& mesh, const DofMap& dofs, int cell);
-/// ∫_side N (Δσ n) over the sides given, N (plane strain: per metre; front and back left out),
+/// ∫ N (Δσ n) over the groups given, N (plane strain: per metre; front and back left out),
 /// 3 x n_nodes.
-Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<Side>& sides,
+Eigen::Matrix3Xd nodal_stress_forces(const Mesh& mesh, const std::vector<BoundaryGroup>& groups,
                                      const Eigen::Matrix3d& stress);
-/// f = Pᵀ ∫_side v·(Δσ n), total over the sides given.
-Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs, const std::vector<Side>& sides,
+/// f = Pᵀ ∫ v·(Δσ n), total over the groups given.
+Eigen::VectorXd stress_load(const Mesh& mesh, const DofMap& dofs,
+                            const std::vector<BoundaryGroup>& groups,
                             const Eigen::Matrix3d& stress);
 /// f = −Pᵀ K_full d_k.
 Eigen::VectorXd displacement_load(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-                                  const DofMap& dofs, int load, bool b_bar);
+                                  const DofMap& dofs, int load, bool mean_dilatation);
 
 /// Nodal displacements u = P x + Σ c_k d_k, 3 x n_nodes.
 Eigen::Matrix3Xd nodal_displacement(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& x,

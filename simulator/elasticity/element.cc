@@ -37,8 +37,6 @@ std::array<Eigen::Matrix<double, 8, 3>, 8> reference_gradients() {
 /// dN_a/dξ_i of the quadratic tetrahedron, at points one of whose barycentric coordinates is
 /// larger.
 std::array<Eigen::Matrix<double, 10, 3>, 4> tetrahedron_gradients() {
-  constexpr std::array<std::array<int, 2>, 6> kSides = {
-      {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
   Eigen::Matrix<double, 4, 3> barycentric;  // their gradients
   barycentric << -1, -1, -1, 1, 0, 0, 0, 1, 0, 0, 0, 1;
   const double small = (5 - std::sqrt(5.0)) / 20, large = 1 - 3 * small;
@@ -48,7 +46,8 @@ std::array<Eigen::Matrix<double, 10, 3>, 4> tetrahedron_gradients() {
     auto& gradient = result[static_cast<std::size_t>(g)];
     for (int a = 0; a < 4; ++a) gradient.row(a) = (4 * at(a) - 1) * barycentric.row(a);
     for (int side = 0; side < 6; ++side) {
-      const auto& [a, b] = kSides[static_cast<std::size_t>(side)];
+      const auto a = static_cast<int>(kTetrahedronSides[static_cast<std::size_t>(side)][0]),
+                 b = static_cast<int>(kTetrahedronSides[static_cast<std::size_t>(side)][1]);
       gradient.row(4 + side) = 4 * (at(a) * barycentric.row(b) + at(b) * barycentric.row(a));
     }
   }
@@ -86,16 +85,20 @@ double shear_modulus(const ElasticMaterial& material) {
   return material.youngs_modulus / (2 * (1 + material.poisson_ratio));
 }
 
-Element make_element(const Mesh& mesh, int cell) {
+Element make_hexahedron(const std::array<Eigen::Vector3d, 8>& nodes) {
   static const auto kReference = reference_gradients();
-  std::array<Eigen::Vector3d, 8> nodes;
-  for (std::size_t a = 0; a < 8; ++a) nodes[a] = mesh.nodes[mesh.cells[cell][a]];
   return isoparametric<8>(nodes, kReference, 1);
 }
 
 Tetrahedron make_tetrahedron(const std::array<Eigen::Vector3d, 10>& nodes) {
   static const auto kReference = tetrahedron_gradients();
   return isoparametric<10>(nodes, kReference, 1.0 / 24);
+}
+
+double volume_of(const Mesh& mesh, int cell) {
+  double volume = 0;
+  with_element(mesh, cell, [&](const auto& element) { volume = element.volume; });
+  return volume;
 }
 
 template <int Nodes, int Points>

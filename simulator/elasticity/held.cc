@@ -17,8 +17,9 @@ std::string rounded(double value) {
 
 std::string extent_text(const Mesh& mesh, const std::function<bool(int)>& member) {
   const Eigen::AlignedBox3d extent = extent_of(mesh, member);
-  const auto n_cells =
-      std::ranges::count_if(mesh.cells, [&](const auto& cell) { return member(cell[0]); });
+  int n_cells = 0;
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    n_cells += member(mesh.cells[cell][0]) ? 1 : 0;
   std::string text = "the block ";
   for (int c = 0; c < 3; ++c) {
     text += concat(c == 0 ? "" : ", ", "xyz"[c], " ", rounded(extent.min()[c]), " to ",

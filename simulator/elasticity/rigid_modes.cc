@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "simulator/common/disjoint_sets.h"
 #include "simulator/common/errors.h"
@@ -17,16 +18,17 @@ constexpr double kFree = 1e-12;
 
 Pieces find_pieces(const Mesh& mesh) {
   DisjointSets sets(mesh.nodes.size());
-  for (const auto& cell : mesh.cells) {
-    for (int node : cell) sets.join(cell[0], node);
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const std::span<const int> nodes = mesh.cells[cell];
+    for (const int node : nodes) sets.join(nodes[0], node);
   }
   for (std::size_t i = 0; i < mesh.tied_to.size(); ++i) {
     sets.join(static_cast<int>(i), mesh.tied_to[i]);
   }
   Pieces pieces;
   std::vector<int> number(mesh.nodes.size(), -1);
-  for (const auto& cell : mesh.cells) {
-    int& piece = number[sets.find(cell[0])];
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    int& piece = number[sets.find(mesh.cells[cell][0])];
     if (piece < 0) {
       piece = pieces.n_pieces++;
       pieces.n_cells.push_back(0);

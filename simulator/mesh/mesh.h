@@ -2,18 +2,34 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "simulator/mesh/cells.h"
 #include "simulator/scene/geometry.h"
 
 namespace faultsim {
 
+/// Faces of the boundary by name: of a grid its sides, in their order.
+struct BoundaryGroup {
+  BoundaryGroup(Side side) : index(static_cast<int>(side)) {}
+  explicit BoundaryGroup(int number) : index(number) {}
+  bool operator==(const BoundaryGroup&) const = default;
+  int index;
+};
+
 /// A face of a cell on the boundary of the body.
 struct BoundaryFace {
   int cell;
-  std::array<int, 4> nodes;  ///< counter-clockwise seen from outside.
-  Side side;
+  BoundaryGroup group;
+  /// Corners, counter-clockwise seen from outside; of a tetrahedron then the middles of its sides
+  /// 01, 12, 20. −1 behind the last.
+  std::array<int, 6> places;
+
+  std::span<const int> nodes() const {
+    return std::span(places).first(places[4] < 0 ? std::size_t{4} : std::size_t{6});
+  }
 };
 
 /// A duplicated node of a fault: two mesh nodes at one place.
@@ -27,17 +43,37 @@ struct FaultNode {
   Eigen::Vector3d normal;
   Eigen::Vector3d strike;
   Eigen::Vector3d dip;
-  double area;  ///< A_k, m2: a quarter of each fault face around it that lies in the patch; in
-                ///< plane strain per metre of strike.
+  double area;  ///< A_k, m2: of each fault face around it that lies in the patch the integral of
+                ///< its (bi)linear hat; in plane strain per metre of strike.
 };
 
-/// A face of a fault.
+/// A share of the jump at a node of a fault.
+struct JumpShare {
+  int fault;
+  int node;  ///< into FaultSurface::nodes.
+  double weight;
+};
+
+/// One of the copies into which faults cut a node. All copies at a place share a mean displacement
+/// ū, and each moves with shares of jumps besides: u = ū + Σ weight R_k g_k. A node in the middle
+/// of a side has half of what both ends of the side have on its side of the faults: jumps are
+/// linear along it.
+struct NodeCopy {
+  int node;
+  int first;  ///< the lowest copy at its place.
+  std::vector<JumpShare> shares;
+};
+
+/// A face of a fault, of three or four corners.
 struct FaultFace {
-  std::array<int, 4> points;  ///< of its corners, cyclic, into FaultSurface::points.
-  std::array<int, 4> nodes;   ///< of its corners, into FaultSurface::nodes; -1 where not split.
+  std::array<int, 4> points;  ///< of its corners, cyclic, into FaultSurface::points; −1 of a fourth
+                              ///< that a triangle has not.
+  std::array<int, 4> nodes;  ///< of its corners, into FaultSurface::nodes; −1 where not split.
   int minus_cell;
   int plus_cell;
   double area;  ///< m2 (plane strain: per metre of strike).
+
+  std::size_t n_corners() const { return points[3] < 0 ? 3 : 4; }
 };
 
 /// A fault as a surface of points and faces. In plane strain a face is an edge down dip, whose ends
@@ -51,20 +87,24 @@ struct FaultSurface {
   std::vector<FaultFace> faces;
 };
 
-/// Conforming hexahedra with duplicated nodes on the faults.
+/// Conforming cells with copied nodes on the faults.
 struct Mesh {
-  std::vector<Eigen::Vector3d> nodes;     ///< m; n_nodes, both copies of a duplicated node.
-  std::vector<std::array<int, 8>> cells;  ///< VTK hexahedron order.
-  std::vector<int> material;              ///< per cell, index given by the spec.
-  std::vector<int> region;                ///< per cell, pressure region or -1.
-  std::vector<double> region_fraction;    ///< per cell, share of its volume in the region, [0, 1].
+  std::vector<Eigen::Vector3d> nodes;  ///< m; n_nodes, all copies of a node that is cut.
+  Cells cells;
+  std::vector<int> material;            ///< per cell, index given by the spec.
+  std::vector<int> region;              ///< per cell, pressure region or -1.
+  std::vector<double> region_fraction;  ///< per cell, share of its volume in the region, [0, 1].
   std::vector<BoundaryFace> boundary;
   std::vector<int> tied_to;  ///< per node: the node whose displacement it shares (itself
                              ///< when independent). Never a chain.
   std::vector<FaultSurface> faults;
-  bool plane_strain = false;  ///< front and back tied, u_y = 0; thickness is then...
-  double thickness = 1;       ///< ... the extent in y of the single cell row, m.
+  std::vector<NodeCopy> copies;  ///< by node, ascending.
+  bool plane_strain = false;     ///< front and back tied, u_y = 0; thickness is then...
+  double thickness = 1;          ///< ... the extent in y of the single cell row, m.
 };
+
+/// Fills Mesh::copies where every node of a fault has two, which move with ∓ half of its jump.
+void share_pairs(Mesh& mesh);
 
 /// Quality of the worst cells; `refusal` is empty when the mesh may be used.
 struct MeshQuality {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "simulator/common/errors.h"
 #include "simulator/mesh/structured_grid.h"
@@ -16,22 +17,31 @@ constexpr double kLeastJacobian = 0.1;  // below this the element's stiffness is
 /// The three nodes joined to each corner of a VTK hexahedron, right-handed.
 constexpr std::array<std::array<size_t, 3>, 8> kNeighbours = {
     {{1, 3, 4}, {2, 0, 5}, {3, 1, 6}, {0, 2, 7}, {7, 5, 0}, {4, 6, 1}, {5, 7, 2}, {6, 4, 3}}};
+/// Those of a tetrahedron.
+constexpr std::array<std::array<size_t, 3>, 4> kOthers = {
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
 struct CellQuality {
   double scaled_jacobian;
   double aspect;
 };
 
-CellQuality cell_quality(const std::array<Vector3d, 8>& p) {
+/// @param corners     of the cell.
+/// @param neighbours  of each corner, right-handed.
+/// @param regular     scaled Jacobian of a cell of equal edges: 1 of a cube, 1/√2 of a tetrahedron.
+template <size_t N>
+CellQuality cell_quality(std::span<const Vector3d> corners,
+                         const std::array<std::array<size_t, 3>, N>& neighbours, double regular) {
   double least = 1, shortest = std::numeric_limits<double>::infinity(), longest = 0;
-  for (size_t v = 0; v < 8; ++v) {
-    const Vector3d a = p[kNeighbours[v][0]] - p[v], b = p[kNeighbours[v][1]] - p[v],
-                   c = p[kNeighbours[v][2]] - p[v];
+  for (size_t v = 0; v < N; ++v) {
+    const Vector3d a = corners[neighbours[v][0]] - corners[v],
+                   b = corners[neighbours[v][1]] - corners[v],
+                   c = corners[neighbours[v][2]] - corners[v];
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     shortest = std::min({shortest, la, lb, lc});
     longest = std::max({longest, la, lb, lc});
     const double product = la * lb * lc;
-    least = std::min(least, product > 0 ? a.cross(b).dot(c) / product : -1.0);
+    least = std::min(least, product > 0 ? a.cross(b).dot(c) / (regular * product) : -1.0);
   }
   return {least, shortest > 0 ? longest / shortest : std::numeric_limits<double>::infinity()};
 }
@@ -40,14 +50,18 @@ CellQuality cell_quality(const std::array<Vector3d, 8>& p) {
 
 MeshQuality check_quality(const Mesh& mesh) {
   MeshQuality quality;
-  for (const std::array<int, 8>& cell : mesh.cells) {
-    std::array<Vector3d, 8> p;
+  const double regular = 1 / std::sqrt(2.0);
+  std::vector<Vector3d> corners;
+  for (size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    corners.clear();
     Vector3d centre = Vector3d::Zero();
-    for (size_t v = 0; v < 8; ++v) {
-      p[v] = mesh.nodes[static_cast<size_t>(cell[v])];
-      centre += 0.125 * p[v];
+    for (const int node : mesh.cells.corners(cell)) {
+      corners.push_back(mesh.nodes[static_cast<size_t>(node)]);
+      centre += corners.back() / static_cast<double>(mesh.cells.n_corners());
     }
-    const CellQuality one = cell_quality(p);
+    const CellQuality one = mesh.cells.shape() == CellShape::hexahedron
+                                ? cell_quality(corners, kNeighbours, 1)
+                                : cell_quality(corners, kOthers, regular);
     quality.max_aspect = std::max(quality.max_aspect, one.aspect);
     // Negated, so that a NaN position is the worst of all.
     if (!(one.scaled_jacobian >= quality.min_scaled_jacobian)) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "simulator/common/errors.h"
+#include "simulator/mesh/hat_areas.h"
 #include "simulator/mesh/structured_grid.h"
 
 namespace faultsim {
@@ -28,15 +29,16 @@ int to_int(size_t n) { return static_cast<int>(n); }
   throw InputError("scene", {{pointer, 0, what, cure}});
 }
 
-std::vector<std::array<int, 8>> grid_cells(const StructuredGrid& grid) {
-  std::vector<std::array<int, 8>> cells;
+Cells grid_cells(const StructuredGrid& grid) {
+  Cells cells;
   cells.reserve(grid.n_cells());
   for (size_t k = 0; k + 1 < grid.n_lines(2); ++k)
     for (size_t j = 0; j + 1 < grid.n_lines(1); ++j)
       for (size_t i = 0; i + 1 < grid.n_lines(0); ++i) {
-        std::array<int, 8>& cell = cells.emplace_back();
+        std::array<int, 8> cell;
         for (size_t v = 0; v < 8; ++v)
           cell[v] = to_int(grid.point({i + kCorner[v][0], j + kCorner[v][1], k + kCorner[v][2]}));
+        cells.add(cell);
       }
   return cells;
 }
@@ -110,8 +112,8 @@ std::vector<BoundaryFace> boundary_faces(const StructuredGrid& grid, const Mesh&
         at[b] = n;
         at[c] = m;
         const size_t cell = grid.cell(at);
-        BoundaryFace face{to_int(cell), {}, static_cast<Side>(side)};
-        for (size_t v = 0; v < 4; ++v) face.nodes[v] = mesh.cells[cell][kSide[side][v]];
+        BoundaryFace face{to_int(cell), static_cast<Side>(side), {-1, -1, -1, -1, -1, -1}};
+        for (size_t v = 0; v < 4; ++v) face.places[v] = mesh.cells[cell][kSide[side][v]];
         faces.push_back(face);
       }
   }
@@ -149,31 +151,6 @@ void tie_faces(const StructuredGrid& grid, const std::vector<int>& plus_of, Mesh
         mesh.tied_to[from] = to_int(to);
         if (plus_of[from] >= 0) mesh.tied_to[static_cast<size_t>(plus_of[from])] = plus_of[to];
       }
-}
-
-struct QuadAreas {
-  double total = 0;
-  std::array<double, 4> corner = {0, 0, 0, 0};  ///< ∫ N_k dA
-};
-
-/// Areas of a flat quadrilateral, exact with 2x2 Gauss points as |∂x/∂s × ∂x/∂t| is linear.
-QuadAreas quad_areas(const std::array<Vector3d, 4>& p) {
-  const double g = 1 / std::sqrt(3.0);
-  constexpr std::array<double, 4> kS = {-1, 1, 1, -1}, kT = {-1, -1, 1, 1};
-  QuadAreas areas;
-  for (size_t q = 0; q < 4; ++q) {
-    const double s = g * kS[q], t = g * kT[q];
-    Vector3d ds = Vector3d::Zero(), dt = Vector3d::Zero();
-    for (size_t k = 0; k < 4; ++k) {
-      ds += 0.25 * kS[k] * (1 + kT[k] * t) * p[k];
-      dt += 0.25 * kT[k] * (1 + kS[k] * s) * p[k];
-    }
-    const double area = ds.cross(dt).norm();
-    areas.total += area;
-    for (size_t k = 0; k < 4; ++k)
-      areas.corner[k] += area * 0.25 * (1 + kS[k] * s) * (1 + kT[k] * t);
-  }
-  return areas;
 }
 
 /// Makes one FaultSurface from a cut fault.
@@ -291,10 +268,10 @@ class SurfaceBuilder {
 
   void add_face(int c, int r, const std::array<size_t, 4>& corner, double thickness) {
     const size_t column = column_line(c), row = std::min(row_line(r), row_line(r + 1));
-    const QuadAreas areas = quad_areas({mesh_.nodes[point(column, row_line(r))],
-                                        mesh_.nodes[point(column, row_line(r + 1))],
-                                        mesh_.nodes[point(column + 1, row_line(r + 1))],
-                                        mesh_.nodes[point(column + 1, row_line(r))]});
+    const HatAreas areas = quad_areas({mesh_.nodes[point(column, row_line(r))],
+                                       mesh_.nodes[point(column, row_line(r + 1))],
+                                       mesh_.nodes[point(column + 1, row_line(r + 1))],
+                                       mesh_.nodes[point(column + 1, row_line(r))]});
     Index3 plus = on_plane(fault_, column, row), minus = plus;
     --minus[fault_.axis];
     FaultFace face{
@@ -349,6 +326,18 @@ bool same_topology(const FaultSurface& a, const FaultSurface& b) {
 
 }  // namespace
 
+void share_pairs(Mesh& mesh) {
+  mesh.copies.clear();
+  for (size_t f = 0; f < mesh.faults.size(); ++f)
+    for (size_t k = 0; k < mesh.faults[f].nodes.size(); ++k) {
+      const FaultNode& pair = mesh.faults[f].nodes[k];
+      const int first = std::min(pair.minus_node, pair.plus_node);
+      mesh.copies.push_back({pair.minus_node, first, {{to_int(f), to_int(k), -0.5}}});
+      mesh.copies.push_back({pair.plus_node, first, {{to_int(f), to_int(k), 0.5}}});
+    }
+  std::ranges::sort(mesh.copies, {}, &NodeCopy::node);
+}
+
 std::vector<Problem> grid_size_problems(const GridLines& lines) {
   double n_cells = 1;
   for (const std::vector<double>& axis : lines) n_cells *= static_cast<double>(axis.size()) - 1;
@@ -367,14 +356,15 @@ Mesh cut_faults(StructuredGrid grid) {
   tie_faces(grid, plus_of, mesh);
   for (const GridFault& fault : grid.faults)
     mesh.faults.push_back(SurfaceBuilder(grid, fault, plus_of, mesh).build());
+  share_pairs(mesh);
   return mesh;
 }
 
 std::optional<Mesh> cut_as(const Mesh& like, StructuredGrid grid) {
   // The last cell ends at the last point, the first one tells how long the rows are.
   const auto row = to_int(grid.n_lines(0)), layer = to_int(grid.n_lines(0) * grid.n_lines(1));
-  const bool same_grid = like.cells.size() == grid.n_cells() && like.cells.front()[3] == row &&
-                         like.cells.front()[4] == layer && like.faults.size() == grid.faults.size();
+  const bool same_grid = like.cells.size() == grid.n_cells() && like.cells[0][3] == row &&
+                         like.cells[0][4] == layer && like.faults.size() == grid.faults.size();
   if (!same_grid || like.material != grid.material) return std::nullopt;
   Mesh mesh = take_grid(grid);
   const std::vector<int> plus_of = number_plus_copies(grid);
@@ -385,6 +375,7 @@ std::optional<Mesh> cut_as(const Mesh& like, StructuredGrid grid) {
     mesh.faults.push_back(SurfaceBuilder(grid, grid.faults[f], plus_of, mesh).build());
     if (!same_topology(mesh.faults.back(), like.faults[f])) return std::nullopt;
   }
+  mesh.copies = like.copies;
   return mesh;
 }
 

@@ -39,7 +39,7 @@ void add_boundary_loads(const Scene& scene, std::vector<LoadCase>& loads) {
     load.key = {.kind = LoadKey::Kind::boundary, .index = static_cast<int>(i)};
     load.displacement = condition.kind == BoundaryKind::displacement;
     if (!load.displacement) {
-      load.stress_sides = condition.sides;
+      load.stress_groups.assign(condition.sides.begin(), condition.sides.end());
       load.stress =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(condition.stress.data());
     }
@@ -78,7 +78,7 @@ BulkProblem bulk_problem(const Scene& scene, const Plan& plan, Mesh mesh) {
     problem.observation_points.emplace_back(
         point.name, Eigen::Vector3d(point.position[0], y, point.position[2]));
   }
-  problem.b_bar = scene.numerics.b_bar;
+  problem.mean_dilatation = scene.numerics.b_bar;
   problem.half_domain = plan.half_domain;
   return problem;
 }

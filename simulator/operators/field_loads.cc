@@ -41,7 +41,7 @@ Eigen::MatrixXd fault_pressures(const Scene& scene, const Mesh& mesh, const Faul
                             law.rule != FaultPressureRule::table;
     for (const FaultFace& face : mesh.faults[f].faces) {
       for (const int point : face.points) {
-        const int node = geometry.faults[f].node_of_point[point];
+        const int node = point < 0 ? -1 : geometry.faults[f].node_of_point[point];
         if (node < 0) continue;
         area[node] += corner_area(face);
         for (Eigen::Index t = 0; from_cells && t < change.cols(); ++t) {
@@ -90,7 +90,7 @@ Eigen::MatrixXd beside(const Mesh& mesh, const FaultGeometry& geometry, const In
     for (const FaultFace& face : mesh.faults[f].faces) {
       const int row = row_of[face.*cell_of];
       for (const int point : face.points) {
-        const int node = geometry.faults[f].node_of_point[point];
+        const int node = point < 0 ? -1 : geometry.faults[f].node_of_point[point];
         if (node < 0 || row < 0 || block.cells[row].region != regions[node]) continue;
         const double part = corner_area(face) * block.cells[row].fraction;
         area[node] += part;

@@ -23,19 +23,24 @@ void write_file_pair(const std::filesystem::path& folder, const std::string& nam
 }
 
 void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::Vector3d>& nodes,
-                  const std::vector<std::array<int, 8>>& cells, const std::vector<int>& material,
+                  const VolumeCells& cells, const std::vector<int>& material,
                   const std::vector<VolumeSnapshot>& snapshots) {
   const std::size_t n_nodes = nodes.size();
-  FAULTSIM_DEMAND(material.size() == cells.size() && n_nodes > 0 && !cells.empty(), cells.size(),
-                  " cells, ", material.size(), " materials, ", n_nodes, " nodes");
+  const std::size_t n_cells = material.size(), of_cell = cells.nodes_of_cell;
+  FAULTSIM_DEMAND((of_cell == 8 || of_cell == 10) && cells.nodes.size() == n_cells * of_cell &&
+                      n_nodes > 0 && n_cells > 0,
+                  cells.nodes.size(), " nodes of cells, ", n_cells, " materials, ", n_nodes,
+                  " nodes");
   FAULTSIM_DEMAND(std::ranges::all_of(nodes, [](const auto& node) { return node.allFinite(); }),
                   "a node's position is not finite");
   const hdf5::Session session;
   const hdf5::Handle file = hdf5::create_in_memory();
   hdf5::write_array(file, "/mesh/nodes", {n_nodes, 3}, nodes[0].data(), {"m", "node positions"});
-  hdf5::write_array(file, "/mesh/cells", {cells.size(), 8}, cells[0].data(),
-                    {"", "corners of hexahedra, VTK order"});
-  hdf5::write_array(file, "/mesh/material", {cells.size()}, material.data(), {"", "material"});
+  const bool hexahedra = of_cell == 8;
+  hdf5::write_array(file, "/mesh/cells", {n_cells, of_cell}, cells.nodes.data(),
+                    {"", hexahedra ? "corners of hexahedra, VTK order"
+                                   : "nodes of quadratic tetrahedra, VTK order"});
+  hdf5::write_array(file, "/mesh/material", {n_cells}, material.data(), {"", "material"});
   std::vector<double> times;
   std::vector<std::string> names;
   for (const VolumeSnapshot& snapshot : snapshots) {
@@ -43,11 +48,11 @@ void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::
     names.push_back(snapshot.name);
   }
   XdmfGrid grid{"volume",
-                "Hexahedron",
-                {"/mesh/cells", {cells.size(), 8}, true},
+                hexahedra ? "Hexahedron" : "Tetrahedron_10",
+                {"/mesh/cells", {n_cells, of_cell}, true},
                 {"/mesh/nodes", {n_nodes, 3}},
                 {}};
-  grid.attributes.push_back({"material", {"/mesh/material", {cells.size()}, true}, true});
+  grid.attributes.push_back({"material", {"/mesh/material", {n_cells}, true}, true});
   if (!snapshots.empty()) {
     hdf5::write_array(file, "/time", {times.size()}, times.data(), {"s", "time"});
     hdf5::write_texts(file, "/name", names);

@@ -1,22 +1,31 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace faultsim {
 
-/// Displacements of the whole mesh at named steps: FOLDER/volume.h5 + volume.xmf.
-/// @param nodes  m;  @param cells  VTK hexahedra;  @param displacement  per entry 3 x n, m.
+/// Nodes of the cells of a mesh, one cell after the other, in VTK's order.
+struct VolumeCells {
+  std::span<const int> nodes;
+  std::size_t nodes_of_cell;  ///< 8 = hexahedra, 10 = quadratic tetrahedra.
+};
+
 struct VolumeSnapshot {
   std::string name;
-  double time;
-  Eigen::Matrix3Xd displacement;
+  double time;                    ///< s.
+  Eigen::Matrix3Xd displacement;  ///< m, per node.
 };
+
+/// Displacements of the whole mesh at named steps: FOLDER/volume.h5 + volume.xmf.
+/// @param nodes     m.
+/// @param material  per cell.
 void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::Vector3d>& nodes,
-                  const std::vector<std::array<int, 8>>& cells, const std::vector<int>& material,
+                  const VolumeCells& cells, const std::vector<int>& material,
                   const std::vector<VolumeSnapshot>& snapshots);
 
 }  // namespace faultsim

@@ -19,7 +19,8 @@ struct PlainBulk {
 
 inline PlainBulk plain_bulk(const BulkProblem& problem) {
   DofMap dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size()));
-  SparseMatrix k = assemble_stiffness(problem.mesh, problem.materials, dofs, problem.b_bar);
+  SparseMatrix k =
+      assemble_stiffness(problem.mesh, problem.materials, dofs, problem.mean_dilatation);
   std::vector<int> group = dofs.bulk_group();
   const int n_groups = dofs.n_groups();
   for (int g = 0; g < dofs.n_jump(); ++g) group.push_back(n_groups + g / 3);

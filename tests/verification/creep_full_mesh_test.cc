@@ -74,14 +74,15 @@ class FullMesh {
  public:
   FullMesh(const BulkProblem& problem, const Eigen::VectorXd& initial)
       : problem_(problem), faults_(problem.mesh.faults), mesh_(problem.mesh), initial_(initial) {
-    mesh_.faults.clear();  // both copies of a node are then ordinary, independent nodes
+    mesh_.faults.clear();
+    mesh_.copies.clear();  // both copies of a node are then ordinary, independent nodes
     dofs_.emplace(mesh_, problem.conditions, static_cast<int>(problem.loads.size()));
     n_ = dofs_->n_unknowns();
     for (const LoadCase& load : problem.loads) {
       Eigen::VectorXd force = Eigen::VectorXd::Zero(n_);
       if (load.region >= 0) force = pressure_load(mesh_, *dofs_, load.region);
-      if (!load.stress_sides.empty())
-        force = stress_load(mesh_, *dofs_, load.stress_sides, load.stress);
+      if (!load.stress_groups.empty())
+        force = stress_load(mesh_, *dofs_, load.stress_groups, load.stress);
       loads_.push_back(force);
     }
     for (const FaultNode& node : faults_.front().nodes) nodes_.push_back(&node);
@@ -184,7 +185,7 @@ class FullMesh {
     if (keep) displacement_ = u;
   }
 
-  void add_cell(const std::array<int, 8>& cell, const Eigen::Matrix<double, 24, 1>& force,
+  void add_cell(std::span<const int> cell, const Eigen::Matrix<double, 24, 1>& force,
                 const Eigen::Matrix<double, 24, 24>& tangent) {
     for (int i = 0; i < 24; ++i) {
       for (const auto& p : dofs_->terms(cell[static_cast<std::size_t>(i / 3)], i % 3)) {

@@ -48,7 +48,7 @@ BulkProblem make_problem() {
   LoadCase pressure, shear, tension;
   pressure.region = 0;
   shear.displacement = true;
-  tension.stress_sides = {Side::x_max};
+  tension.stress_groups = {Side::x_max};
   tension.stress = pull;
   problem.loads = {pressure, shear, tension};
   return problem;
@@ -64,17 +64,18 @@ class SaddlePoint {
  public:
   explicit SaddlePoint(const BulkProblem& problem)
       : faults_(problem.mesh.faults), mesh_(problem.mesh) {
-    mesh_.faults.clear();  // both copies of a node are then ordinary, independent nodes
+    mesh_.faults.clear();
+    mesh_.copies.clear();  // both copies of a node are then ordinary, independent nodes
     dofs_.emplace(mesh_, problem.conditions, static_cast<int>(problem.loads.size()));
-    stiffness_ = assemble_stiffness(mesh_, problem.materials, *dofs_, problem.b_bar);
+    stiffness_ = assemble_stiffness(mesh_, problem.materials, *dofs_, problem.mean_dilatation);
     for (std::size_t k = 0; k < problem.loads.size(); ++k) {
       const LoadCase& load = problem.loads[k];
       if (load.region >= 0) loads_.push_back(pressure_load(mesh_, *dofs_, load.region));
-      if (!load.stress_sides.empty())
-        loads_.push_back(stress_load(mesh_, *dofs_, load.stress_sides, load.stress));
+      if (!load.stress_groups.empty())
+        loads_.push_back(stress_load(mesh_, *dofs_, load.stress_groups, load.stress));
       if (load.displacement) {
         loads_.push_back(displacement_load(mesh_, problem.materials, *dofs_, static_cast<int>(k),
-                                           problem.b_bar));
+                                           problem.mean_dilatation));
       }
     }
     for (const FaultNode& node : faults_.front().nodes) nodes_.push_back(&node);

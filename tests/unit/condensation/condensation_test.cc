@@ -15,7 +15,8 @@ using test::condense;
 using test::make_box;
 
 Eigen::MatrixXd dense_stiffness(const BulkProblem& problem, const DofMap& dofs) {
-  const SparseMatrix k = assemble_stiffness(problem.mesh, problem.materials, dofs, problem.b_bar);
+  const SparseMatrix k =
+      assemble_stiffness(problem.mesh, problem.materials, dofs, problem.mean_dilatation);
   const Eigen::MatrixXd full = Eigen::MatrixXd(k).selfadjointView<Eigen::Lower>();
   return full;
 }

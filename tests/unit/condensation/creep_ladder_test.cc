@@ -49,13 +49,14 @@ struct DenseStep {
       const double x = duration * shear_modulus(materials[m]) / problem.viscosity[m];
       if (x > 0) materials[m].shear_factor = (1 - std::exp(-x)) / x;
     }
-    const SparseMatrix lower = assemble_stiffness(problem.mesh, materials, dofs, problem.b_bar);
+    const SparseMatrix lower =
+        assemble_stiffness(problem.mesh, materials, dofs, problem.mean_dilatation);
     k = Eigen::MatrixXd(lower);
     k = Eigen::MatrixXd(k.selfadjointView<Eigen::Lower>());
     f = factors[0] * pressure_load(problem.mesh, dofs, 0) +
-        factors[1] * stress_load(problem.mesh, dofs, problem.loads[1].stress_sides,
+        factors[1] * stress_load(problem.mesh, dofs, problem.loads[1].stress_groups,
                                  problem.loads[1].stress) +
-        factors[2] * displacement_load(problem.mesh, materials, dofs, 2, problem.b_bar) +
+        factors[2] * displacement_load(problem.mesh, materials, dofs, 2, problem.mean_dilatation) +
         factors[3] * pressure_load(problem.mesh, dofs, 1);
     n_bulk = dofs.n_bulk();
   }

@@ -14,7 +14,7 @@ using test::make_box;
 
 const std::array<int, 3> kCells = {4, 2, 2};
 
-BulkProblem two_blocks(const std::vector<Side>& sides) {
+BulkProblem two_blocks(const std::vector<BoundaryGroup>& sides) {
   BulkProblem problem;
   problem.mesh = make_box(kCells, {40, 20, 20}, {test::through(3, kCells)});
   problem.materials = {{11e9, 0.15}};
@@ -100,6 +100,7 @@ TEST(LoosePieces, AHingeIsRefusedWithItsPlace) {
   for (FaultFace& face : problem.mesh.faults[0].faces) {
     for (int& node : face.nodes) node = node == 0 ? 0 : -1;
   }
+  share_pairs(problem.mesh);
   problem.materials = {{11e9, 0.15}};
   problem.conditions = {
       {Side::x_min, {true, true, true}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1}};

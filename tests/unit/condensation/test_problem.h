@@ -8,11 +8,11 @@
 
 namespace faultsim::test {
 
-inline LoadCase stress_case(const Eigen::Matrix3d& stress, std::vector<Side> sides) {
+inline LoadCase stress_case(const Eigen::Matrix3d& stress, std::vector<BoundaryGroup> sides) {
   LoadCase load;
   load.key = {LoadKey::Kind::boundary, 0};
   load.stress = stress;
-  load.stress_sides = std::move(sides);
+  load.stress_groups = std::move(sides);
   return load;
 }
 

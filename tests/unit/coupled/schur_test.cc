@@ -61,7 +61,8 @@ Eigen::MatrixXd block_from_cells(const CoupledExample& example, const FaultNode&
                                  const SaddlePoint& j, int first, int last) {
   const Mesh& mesh = example.problem.mesh;
   std::set<int> dofs;
-  for (const auto& cell : mesh.cells) {
+  for (std::size_t k = 0; k < mesh.cells.size(); ++k) {
+    const std::span<const int> cell = mesh.cells[k];
     const bool touches = std::any_of(cell.begin(), cell.end(), [&](int corner) {
       return corner == node.minus_node || corner == node.plus_node;
     });

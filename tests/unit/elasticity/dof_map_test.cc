@@ -163,7 +163,7 @@ TEST(Pieces, FaultsCutTheBodyAndHoldItTogether) {
 
 TEST(RigidModes, AreDescribedInWords) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {});
-  const auto words = [&](const std::vector<Side>& sides) {
+  const auto words = [&](const std::vector<BoundaryGroup>& sides) {
     const DofMap dofs(mesh, test::rollers(sides), 0);
     const auto fixed = [&](int node, int c) { return dofs.terms(node, c).empty(); };
     return describe(rigid_modes(

@@ -35,10 +35,17 @@ Mesh distorted_box() {
   return mesh;
 }
 
+Element hexahedron(const Mesh& mesh, std::size_t cell) {
+  std::array<Eigen::Vector3d, 8> nodes;
+  for (std::size_t a = 0; a < 8; ++a)
+    nodes[a] = mesh.nodes[static_cast<std::size_t>(mesh.cells[cell][a])];
+  return make_hexahedron(nodes);
+}
+
 TEST(Element, RigidMotionHasNoEnergy) {
   const Mesh mesh = distorted_box();
   for (bool b_bar : {true, false}) {
-    const ElementMatrix k = element_stiffness(make_element(mesh, 13), kRock[0], b_bar);
+    const ElementMatrix k = element_stiffness(hexahedron(mesh, 13), kRock[0], b_bar);
     EXPECT_EQ(k, k.transpose());
     Eigen::Matrix<double, 24, 6> rigid;
     for (int a = 0; a < 8; ++a) {
@@ -57,7 +64,7 @@ TEST(Element, RigidMotionHasNoEnergy) {
 
 TEST(Element, BBarChangesNothingForUniformStrain) {
   const Mesh mesh = distorted_box();
-  const Element element = make_element(mesh, 20);
+  const Element element = hexahedron(mesh, 20);
   Eigen::Matrix<double, 24, 1> u;
   for (int a = 0; a < 8; ++a) {
     const int node = mesh.cells[20][static_cast<std::size_t>(a)];
@@ -86,7 +93,7 @@ TEST(Elasticity, UniformStressOnAPinnedBodyGivesALinearField) {
   const Eigen::Matrix3Xd u = nodal_displacement(mesh, dofs, x, {});
   // The displacement gradient of each cell has the strain as its symmetric part.
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-    const Element element = make_element(mesh, static_cast<int>(cell));
+    const Element element = hexahedron(mesh, cell);
     for (const auto& gradient : element.gradient) {
       Eigen::Matrix3d h = Eigen::Matrix3d::Zero();
       for (int a = 0; a < 8; ++a) {
@@ -155,7 +162,7 @@ TEST(Elasticity, PressureLoadsACellByTheShareOfItThatLiesInTheRegion) {
 TEST(Elasticity, NothingPullsAtFrontAndBackOfASlice) {
   Mesh mesh = make_box({4, 1, 4}, {40, 5, 40}, {}, test::shear_to_dip(70));
   const Eigen::Matrix3d stress = hooke(kRock[0], some_gradient());
-  const std::vector<Side> sides = {Side::y_min, Side::y_max};
+  const std::vector<BoundaryGroup> sides = {Side::y_min, Side::y_max};
   EXPECT_GT(nodal_stress_forces(mesh, sides, stress).norm(), 0) << "a body of its own";
   test::make_plane_strain(mesh, 5);
   EXPECT_EQ(nodal_stress_forces(mesh, sides, stress).norm(), 0);
@@ -215,8 +222,7 @@ TEST(Elasticity, AssemblyEqualsThePlainSumOverCells) {
   }
   Eigen::MatrixXd full = Eigen::MatrixXd::Zero(p.rows(), p.rows());
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
-    const ElementMatrix k_e =
-        element_stiffness(make_element(mesh, static_cast<int>(cell)), kRock[0], true);
+    const ElementMatrix k_e = element_stiffness(hexahedron(mesh, cell), kRock[0], true);
     for (int a = 0; a < 8; ++a) {
       for (int b = 0; b < 8; ++b) {
         full.block<3, 3>(3 * mesh.cells[cell][static_cast<std::size_t>(a)],

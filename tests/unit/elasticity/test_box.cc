@@ -64,6 +64,7 @@ class BoxMaker {
     for (std::size_t i = 0; i < mesh_.nodes.size(); ++i) {
       mesh_.tied_to.push_back(static_cast<int>(i));
     }
+    share_pairs(mesh_);
     return std::move(mesh_);
   }
 
@@ -106,9 +107,9 @@ class BoxMaker {
                                   corner(0, 1, 0), corner(0, 0, 1), corner(1, 0, 1),
                                   corner(1, 1, 1), corner(0, 1, 1)};
     const int index = static_cast<int>(mesh_.cells.size());
-    mesh_.cells.push_back(c);
+    mesh_.cells.add(c);
     const auto face = [&](Side side, std::size_t p, std::size_t q, std::size_t r, std::size_t s) {
-      mesh_.boundary.push_back({index, {c[p], c[q], c[r], c[s]}, side});
+      mesh_.boundary.push_back({index, side, {c[p], c[q], c[r], c[s], -1, -1}});
     };
     if (i == 0) face(Side::x_min, 0, 4, 7, 3);
     if (i == n_[0] - 1) face(Side::x_max, 1, 2, 6, 5);
@@ -167,6 +168,7 @@ void swap_sides(Mesh& mesh) {
     }
     for (FaultFace& face : fault.faces) std::swap(face.minus_cell, face.plus_cell);
   }
+  share_pairs(mesh);
 }
 
 void make_plane_strain(Mesh& mesh, double thickness) {
@@ -174,7 +176,9 @@ void make_plane_strain(Mesh& mesh, double thickness) {
   mesh.thickness = thickness;
   for (std::size_t i = 0; i < mesh.nodes.size(); ++i) {
     if (mesh.nodes[i].y() < thickness / 2) continue;
-    for (const auto& cell : mesh.cells) {  // corner pairs (0,3), (1,2), (4,7), (5,6) lie along y
+    for (std::size_t c = 0; c < mesh.cells.size();
+         ++c) {  // corner pairs (0,3), (1,2), (4,7), (5,6) lie along y
+      const auto cell = mesh.cells[c];
       for (const auto& [front, back] : {std::pair(0, 3), {1, 2}, {4, 7}, {5, 6}}) {
         if (cell[static_cast<std::size_t>(back)] == static_cast<int>(i)) {
           mesh.tied_to[i] = cell[static_cast<std::size_t>(front)];
@@ -207,14 +211,15 @@ void make_plane_strain(Mesh& mesh, double thickness) {
       for (int& node : face.nodes) node = node < 0 ? -1 : number[static_cast<std::size_t>(node)];
     }
   }
+  share_pairs(mesh);
 }
 
-std::vector<DisplacementCondition> rollers(const std::vector<Side>& sides) {
+std::vector<DisplacementCondition> rollers(const std::vector<BoundaryGroup>& sides) {
   std::vector<DisplacementCondition> conditions;
-  for (Side side : sides) {
+  for (const BoundaryGroup side : sides) {
     DisplacementCondition condition{
         side, {false, false, false}, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1};
-    condition.components[static_cast<std::size_t>(side) / 2] = true;
+    condition.components[static_cast<std::size_t>(side.index) / 2] = true;
     conditions.push_back(condition);
   }
   return conditions;
@@ -223,18 +228,19 @@ std::vector<DisplacementCondition> rollers(const std::vector<Side>& sides) {
 std::vector<DisplacementCondition> affine(const Eigen::Vector3d& translation,
                                           const Eigen::Matrix3d& gradient) {
   std::vector<DisplacementCondition> conditions;
-  for (Side side : all_sides()) {
+  for (const BoundaryGroup side : all_sides()) {
     conditions.push_back({side, {true, true, true}, translation, gradient, 0});
   }
   return conditions;
 }
 
-std::vector<Side> all_sides() {
+std::vector<BoundaryGroup> all_sides() {
   return {Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min, Side::z_max};
 }
 
 Mesh without_faults(Mesh mesh) {
   mesh.faults.clear();
+  mesh.copies.clear();
   return mesh;
 }
 

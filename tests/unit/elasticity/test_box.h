@@ -36,13 +36,13 @@ void swap_sides(Mesh& mesh);
 void make_plane_strain(Mesh& mesh, double thickness);
 
 /// u_n = 0 on each side given.
-std::vector<DisplacementCondition> rollers(const std::vector<Side>& sides);
+std::vector<DisplacementCondition> rollers(const std::vector<BoundaryGroup>& sides);
 
 /// Prescribes u = translation + gradient x on all sides for load 0.
 std::vector<DisplacementCondition> affine(const Eigen::Vector3d& translation,
                                           const Eigen::Matrix3d& gradient);
 
-std::vector<Side> all_sides();
+std::vector<BoundaryGroup> all_sides();
 
 /// Solves K u = f, given K's lower triangle.
 Eigen::VectorXd solve(const SparseMatrix& lower, const Eigen::VectorXd& f);

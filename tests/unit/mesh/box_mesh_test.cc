@@ -52,12 +52,12 @@ TEST(BoxMesh, BoundaryFacesLieOnTheirSides) {
   BoxMeshSpec spec = box({0, 0, 0}, {2, 3, 4}, 1);
   const Mesh mesh = make_mesh(spec);
   for (const BoundaryFace& face : mesh.boundary) {
-    const int side = static_cast<int>(face.side), axis = side / 2;
+    const int side = face.group.index, axis = side / 2;
     const double wanted = side % 2 == 0 ? 0 : spec.to[static_cast<size_t>(axis)];
-    for (const int n : face.nodes) EXPECT_EQ(node(mesh, n)[axis], wanted);
+    for (const int n : face.nodes()) EXPECT_EQ(node(mesh, n)[axis], wanted);
     const Eigen::Vector3d normal =
-        (node(mesh, face.nodes[1]) - node(mesh, face.nodes[0]))
-            .cross(node(mesh, face.nodes[2]) - node(mesh, face.nodes[0]));
+        (node(mesh, face.places[1]) - node(mesh, face.places[0]))
+            .cross(node(mesh, face.places[2]) - node(mesh, face.places[0]));
     EXPECT_GT(normal[axis] * (side % 2 == 0 ? -1 : 1), 0);
   }
 }

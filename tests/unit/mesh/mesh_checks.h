@@ -136,8 +136,8 @@ inline void check_mesh(const Mesh& mesh) {
     EXPECT_LE(mesh.region_fraction[cell], 1);
   }
   std::vector<char> used(mesh.nodes.size(), 0);
-  for (const auto& cell : mesh.cells)
-    for (const int n : cell) used[static_cast<size_t>(n)] = 1;
+  for (size_t cell = 0; cell < mesh.cells.size(); ++cell)
+    for (const int n : mesh.cells[cell]) used[static_cast<size_t>(n)] = 1;
   EXPECT_EQ(std::count(used.begin(), used.end(), 0), 0) << "nodes without a cell";
   for (const FaultSurface& fault : mesh.faults) check_fault(mesh, fault);
 }
@@ -146,8 +146,8 @@ inline void check_mesh(const Mesh& mesh) {
 inline double volume_by_boundary(const Mesh& mesh) {
   double volume = 0;
   for (const BoundaryFace& face : mesh.boundary) {
-    const Eigen::Vector3d &a = node(mesh, face.nodes[0]), &b = node(mesh, face.nodes[1]),
-                          &c = node(mesh, face.nodes[2]), &d = node(mesh, face.nodes[3]);
+    const Eigen::Vector3d &a = node(mesh, face.places[0]), &b = node(mesh, face.places[1]),
+                          &c = node(mesh, face.places[2]), &d = node(mesh, face.places[3]);
     volume += (a.dot(b.cross(c)) + a.dot(c.cross(d))) / 6;
   }
   return volume;

@@ -390,11 +390,10 @@ TEST(Volume, DisplacementsComeBack) {
   const ScratchFolder folder;
   std::vector<Eigen::Vector3d> nodes(12);
   for (Eigen::Vector3d& node : nodes) node.setRandom();
-  const std::vector<std::array<int, 8>> cells = {{0, 1, 2, 3, 4, 5, 6, 7},
-                                                 {4, 5, 6, 7, 8, 9, 10, 11}};
+  const std::vector<int> cells = {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11};
   const std::vector<VolumeSnapshot> snapshots = {{"initial", 0, Eigen::Matrix3Xd::Zero(3, 12)},
                                                  {"end", 5, Eigen::Matrix3Xd::Random(3, 12)}};
-  write_volume(folder.path(), nodes, cells, {3, 4}, snapshots);
+  write_volume(folder.path(), nodes, {cells, 8}, {3, 4}, snapshots);
   const H5File file(folder.path() / "volume.h5");
   const Dataset u = file.read("/displacement");
   ASSERT_THAT(u.shape, ElementsAre(2, 12, 3));
@@ -411,8 +410,19 @@ TEST(Volume, DisplacementsComeBack) {
 TEST(Volume, WithoutSnapshotsShowsTheMesh) {
   const ScratchFolder folder;
   const std::vector<Eigen::Vector3d> nodes(8, Eigen::Vector3d::Ones());
-  write_volume(folder.path(), nodes, {{0, 1, 2, 3, 4, 5, 6, 7}}, {0}, {});
+  const std::vector<int> cell = {0, 1, 2, 3, 4, 5, 6, 7};
+  write_volume(folder.path(), nodes, {cell, 8}, {0}, {});
   expect_references_hold(folder.path() / "volume.xmf", 3);
+}
+
+TEST(Volume, QuadraticTetrahedraAreSaidToBeSo) {
+  const ScratchFolder folder;
+  const std::vector<Eigen::Vector3d> nodes(11, Eigen::Vector3d::Ones());
+  const std::vector<int> cells = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0, 2, 1, 3, 4, 5, 6, 7, 8, 10};
+  write_volume(folder.path(), nodes, {cells, 10}, {0, 0}, {});
+  EXPECT_THAT(H5File(folder.path() / "volume.h5").read("/mesh/cells").shape, ElementsAre(2, 10));
+  EXPECT_THAT(read_bytes(folder.path() / "volume.xmf"),
+              HasSubstr("\"Tetrahedron_10\" NumberOfElements=\"2\""));
 }
 
 }  // namespace
