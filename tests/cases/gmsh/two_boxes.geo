@@ -1,0 +1,38 @@
+// Two boxes beside each other with their common face and a smaller face within the eastern one, of tetrahedra of second
+// order. two_boxes.msh is what Gmsh 4.8.4 makes of it: gmsh -3 -order 2 -format msh41 two_boxes.geo -o two_boxes.msh
+h = 90;
+Point(1) = {0, 0, 0, h};
+Point(2) = {100, 0, 0, h};
+Point(3) = {200, 0, 0, h};
+Point(4) = {0, 80, 0, h};
+Point(5) = {100, 80, 0, h};
+Point(6) = {200, 80, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {4, 5};
+Line(4) = {5, 6};
+Line(5) = {1, 4};
+Line(6) = {2, 5};
+Line(7) = {3, 6};
+Curve Loop(1) = {1, 6, -3, -5};
+Plane Surface(1) = {1};
+Curve Loop(2) = {2, 7, -4, -6};
+Plane Surface(2) = {2};
+west[] = Extrude {0, 0, 60} { Surface{1}; };
+east[] = Extrude {0, 0, 60} { Surface{2}; };
+Point(101) = {150, 20, 20, h};
+Point(102) = {150, 60, 20, h};
+Point(103) = {150, 60, 40, h};
+Point(104) = {150, 20, 40, h};
+Line(101) = {101, 102};
+Line(102) = {102, 103};
+Line(103) = {103, 104};
+Line(104) = {104, 101};
+Curve Loop(101) = {101, 102, 103, 104};
+Plane Surface(101) = {101};
+Surface{101} In Volume{east[1]};
+Physical Volume("west", 10) = {west[1]};
+Physical Volume("east", 3) = {east[1]};
+Physical Surface("Störung A", 7) = {west[3]};
+Physical Surface("crack", 2) = {101};
+Physical Surface("both", 5) = {west[3], 101};
