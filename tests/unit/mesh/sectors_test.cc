@@ -11,59 +11,19 @@
 #include <random>
 #include <set>
 
-#include "tests/unit/mesh/simplices.h"
+#include "tests/unit/mesh/random_faults.h"
 
 namespace faultsim {
 namespace {
 
 using Eigen::Vector3d;
+using test::add_fault;
+using test::add_random_faults;
+using test::everywhere;
+using test::kNormals;
 using test::made_of;
 using test::Simplices;
 using ::testing::ElementsAre;
-
-/// Faces between cells on different sides of a plane, whose centres a condition holds of.
-template <typename Condition>
-void add_fault(Simplices& mesh, int fault, const Vector3d& normal, double distance,
-               const Condition& is_inside) {
-  for (SharedFace& face : mesh.faces) {
-    const auto beyond = [&](int cell) { return mesh.centre_of_cell(cell).dot(normal) > distance; };
-    if (beyond(face.cells[0]) == beyond(face.cells[1]) || face.fault >= 0 ||
-        !is_inside(mesh.centre(face.nodes)))
-      continue;
-    face.fault = fault;
-    if (beyond(face.cells[0])) std::swap(face.cells[0], face.cells[1]);
-  }
-}
-
-bool everywhere(const Vector3d&) { return true; }
-
-/// Directions in which planes of whole distances consist of faces of such cells.
-const std::array<Vector3d, 6> kNormals = {
-    {{1, 0, 0}, {0, 1, 0}, {1, -1, 0}, {0, 0, 1}, {1, 0, -1}, {0, 1, -1}}};
-
-/// Parts of such planes with straight edges: faults that end, cross, end at each other, share
-/// faces.
-void add_random_faults(Simplices& mesh, int n, int n_faults, int dimensions, std::mt19937& random) {
-  std::uniform_int_distribution<std::size_t> direction(0, dimensions == 2 ? 2 : 5);
-  std::uniform_int_distribution<int> place(1, n - 1), turned(0, 1);
-  for (int fault = 0; fault < n_faults; ++fault) {
-    const auto whole_distance = [&](const Vector3d& normal) {
-      return std::round(normal.dot(Vector3d(place(random), place(random), place(random))));
-    };
-    Vector3d normal = kNormals[direction(random)];
-    double distance = whole_distance(normal);
-    if (turned(random) == 1) normal *= -1, distance *= -1;
-    std::vector<std::pair<Vector3d, double>> edges;
-    for (int k = 0; k < 2; ++k) {
-      const Vector3d across = (turned(random) == 1 ? 1 : -1) * kNormals[direction(random)];
-      edges.emplace_back(across, whole_distance(across));
-    }
-    add_fault(mesh, fault, normal, distance, [&](const Vector3d& x) {
-      return std::ranges::all_of(edges,
-                                 [&](const auto& edge) { return edge.first.dot(x) > edge.second; });
-    });
-  }
-}
 
 /// The copies that the corners of cells are of: those of a node are one where a way from cell to
 /// cell leads around it that meets no fault. Judges the splitter, by all corners at once.
