@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "simulator/common/fingerprint.h"
 #include "simulator/common/input_file.h"
 #include "simulator/gmsh/mesh_assembly.h"
 #include "simulator/gmsh/read_content.h"
@@ -17,6 +18,7 @@ GmshMesh read_gmsh(const std::filesystem::path& file) {
   const GmshContent content = read_content(text, form, problems);
   GmshMesh mesh = assemble_mesh(content, problems);
   problems.require_none();
+  mesh.fingerprint = fingerprint(text);
   return mesh;
 }
 

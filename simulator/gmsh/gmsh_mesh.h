@@ -28,6 +28,7 @@ struct GmshMesh {
   std::vector<int> facet_group;            ///< per facet, into facet_groups.
   std::vector<std::string> facet_groups;   ///< the same of physical surfaces that have facets.
   double largest_bend = 0;  ///< m: how far a node amid a side lies from the side's middle.
+  std::string fingerprint;  ///< of the file's bytes.
 };
 
 inline constexpr std::size_t kMostGmshBytes = 2'000'000'000;  ///< some 40 million tetrahedra.

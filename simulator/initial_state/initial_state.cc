@@ -41,6 +41,7 @@ bool is_viscous(const Scene& scene, const std::string& material) {
 /// Whether the layer at that depth is viscous; beyond the model the nearest layer counts.
 bool is_viscous_at(const Scene& scene, double depth, DepthSide side) {
   const std::vector<Layer>& layers = layers_of(scene);
+  if (is_meshed(scene)) return false;  // it has no layers, and lithostatic ones are refused
   if (layers.empty()) return is_viscous(scene, scene.box.material);
   std::size_t i = 0;
   while (i + 1 < layers.size()) {
@@ -223,6 +224,7 @@ std::vector<InitialRegion> initial_regions(const Scene& scene) {
 
 bool has_viscous_layer(const Scene& scene) {
   const std::vector<Layer>& layers = layers_of(scene);
+  if (is_meshed(scene)) return has_viscous_material(scene);
   if (layers.empty()) return is_viscous(scene, scene.box.material);
   return std::ranges::any_of(layers,
                              [&](const Layer& layer) { return is_viscous(scene, layer.material); });

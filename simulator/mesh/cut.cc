@@ -65,6 +65,8 @@ class Cutter {
   void number_sides();
   void add_surface(std::size_t fault);
   int jump_of(int fault, const FaultFacet& facet, std::size_t corner, double area);
+  void align_with_outside(std::size_t fault);
+  void find_outside(const std::vector<std::vector<CellFace>>& boundary);
   void add_jumps(std::size_t fault);
   int point_of(FaultSurface& surface, std::map<NodePair, int>& points, int node, int jump);
   void copy_corners();
@@ -78,7 +80,8 @@ class Cutter {
   const UncutMesh& body_;
   const std::vector<std::vector<FaultFacet>>& facets_;
   const FaultSplits& splits_;
-  std::map<NodePair, int> middles_;  ///< of all sides of tetrahedra: the node.
+  std::map<int, std::vector<int>> axes_across_outside_;  ///< by corner: of plane sides there.
+  std::map<NodePair, int> middles_;                      ///< of all sides of tetrahedra: the node.
   std::map<std::pair<int, int>, int>
       number_;  ///< (node, jump at it): into its FaultSurface::nodes.
   std::map<int, std::vector<SectorArea>> areas_;  ///< by node.
@@ -124,10 +127,9 @@ int Cutter::point_of(FaultSurface& surface, std::map<NodePair, int>& points, int
   return at->second;
 }
 
-/// Frame of a node whose normal is the sum of area vectors.
+/// The rest of a node's frame by its normal.
 void set_frame(FaultNode& node) {
   constexpr double kHorizontal = 1e-9;
-  node.normal.normalize();
   const Vector3d across = node.normal.cross(Vector3d::UnitZ());
   node.strike = across.norm() > kHorizontal ? across.normalized() : Vector3d::UnitX();
   node.dip = node.normal.cross(node.strike);
@@ -166,7 +168,33 @@ void Cutter::add_surface(std::size_t fault) {
     }
     surface.faces.push_back(face);
   }
+  for (FaultNode& node : surface.nodes) node.normal.normalize();
+  align_with_outside(fault);
   for (FaultNode& node : surface.nodes) set_frame(node);
+}
+
+/// Where a curved fault meets a plane side of the body at a right angle, the mean over the facets
+/// on one side of it is off by no more than the facets differ: the normal is turned into the plane.
+void Cutter::align_with_outside(std::size_t fault) {
+  FaultSurface& surface = mesh_.faults[fault];
+  std::vector<double> spread(surface.nodes.size(), 0);
+  std::vector<int> place(surface.nodes.size(), -1);
+  for (std::size_t k = 0; k < surface.faces.size(); ++k) {
+    const FaultFacet& facet = facets_[fault][k];
+    const Vector3d normal = area_vector(body_.nodes, facet.corners).normalized();
+    for (std::size_t v = 0; v < surface.faces[k].n_corners(); ++v) {
+      const int node = surface.faces[k].nodes[v];
+      if (node < 0) continue;
+      spread[node] = std::max(spread[node], (normal - surface.nodes[node].normal).norm());
+      place[node] = facet.corners[v];
+    }
+  }
+  for (std::size_t k = 0; k < surface.nodes.size(); ++k) {
+    Vector3d& normal = surface.nodes[k].normal;
+    for (const int axis : axes_across_outside_[place[k]])
+      if (std::abs(normal[axis]) <= spread[k]) normal[axis] = 0;
+    normal.normalize();
+  }
 }
 
 /// Numbers the copies of a node; the first sector's keeps its number.
@@ -278,12 +306,32 @@ void Cutter::add_boundary(const std::vector<std::vector<CellFace>>& boundary) {
   }
 }
 
+void Cutter::find_outside(const std::vector<std::vector<CellFace>>& boundary) {
+  constexpr double kPlane = 1e-9;
+  for (const std::vector<CellFace>& group : boundary) {
+    for (const CellFace& face : group) {
+      const Vector3d normal =
+          area_vector(body_.nodes,
+                      corners_of_face(body_.shape, corners(face.cells[0]), face.place[0]))
+              .normalized();
+      Eigen::Index axis = 0;
+      if (1 - normal.cwiseAbs().maxCoeff(&axis) > kPlane) continue;
+      for (const int node : face.sorted) {
+        if (node < 0) continue;
+        std::vector<int>& axes = axes_across_outside_[node];
+        if (!contains(axes, static_cast<int>(axis))) axes.push_back(static_cast<int>(axis));
+      }
+    }
+  }
+}
+
 Mesh Cutter::finish(const std::vector<std::vector<CellFace>>& boundary) {
   mesh_.nodes = body_.nodes;
   mesh_.material = body_.material;
   mesh_.region = body_.region;
   mesh_.region_fraction = body_.region_fraction;
   if (is_tetrahedral()) number_sides();
+  find_outside(boundary);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     mesh_.faults.emplace_back().name = body_.faults[f].name;
     add_jumps(f);
@@ -296,33 +344,6 @@ Mesh Cutter::finish(const std::vector<std::vector<CellFace>>& boundary) {
   add_boundary(boundary);
   for (std::size_t n = 0; n < mesh_.nodes.size(); ++n) mesh_.tied_to.push_back(static_cast<int>(n));
   return std::move(mesh_);
-}
-
-/// The faces of each group of the boundary.
-std::vector<std::vector<CellFace>> boundary_of(const UncutMesh& body, const CellFaces& faces,
-                                               std::vector<Problem>& problems) {
-  std::vector<std::vector<CellFace>> all;
-  for (const FacetGroup& group : body.boundary) {
-    std::vector<CellFace>& own = all.emplace_back();
-    std::size_t n_bad = 0;
-    std::array<int, 4> first = {};
-    for (const std::array<int, 4>& facet : group.facets) {
-      const int at = faces.find(facet);
-      if (at >= 0 && faces.faces[at].cells[1] < 0) {
-        own.push_back(faces.faces[at]);
-      } else if (n_bad++ == 0) {
-        first = facet;
-      }
-    }
-    if (n_bad == 0) continue;
-    problems.push_back(
-        {"", 0,
-         concat("boundary \"", group.name, "\": ", n_bad, " of ",
-                counted(group.facets.size(), "facet", "facets"),
-                " are not on the outside of the body, the first at ", place_of(body.nodes, first)),
-         "let its surfaces bound the volumes, on one side only"});
-  }
-  return all;
 }
 
 void demand_whole(const UncutMesh& body) {
@@ -345,7 +366,7 @@ Mesh cut(const UncutMesh& body, const std::string& source) {
                                place_of(body.nodes, faces.overlapping.front())),
                         "let the volumes fit together without overlapping"});
   const std::vector<std::vector<FaultFacet>> facets = fault_facets(body, faces, problems);
-  const std::vector<std::vector<CellFace>> boundary = boundary_of(body, faces, problems);
+  const std::vector<std::vector<CellFace>> boundary = boundary_facets(body, faces, problems);
   if (!problems.empty()) throw InputError(source, problems);
   const FaultSplits splits = split_at_faults(body, faces, facets, problems);
   if (!problems.empty()) throw InputError(source, problems);

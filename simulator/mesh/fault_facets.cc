@@ -226,4 +226,30 @@ std::vector<std::vector<FaultFacet>> fault_facets(const UncutMesh& body, const C
   return all;
 }
 
+std::vector<std::vector<CellFace>> boundary_facets(const UncutMesh& body, const CellFaces& faces,
+                                                   std::vector<Problem>& problems) {
+  std::vector<std::vector<CellFace>> all;
+  for (const FacetGroup& group : body.boundary) {
+    std::vector<CellFace>& own = all.emplace_back();
+    std::size_t n_bad = 0;
+    std::array<int, 4> first = {};
+    for (const std::array<int, 4>& facet : group.facets) {
+      const int at = faces.find(facet);
+      if (at >= 0 && faces.faces[at].cells[1] < 0) {
+        own.push_back(faces.faces[at]);
+      } else if (n_bad++ == 0) {
+        first = facet;
+      }
+    }
+    if (n_bad == 0) continue;
+    problems.push_back(
+        {"", 0,
+         concat("boundary \"", group.name, "\": ", n_bad, " of ",
+                counted(group.facets.size(), "facet", "facets"),
+                " are not on the outside of the body, the first at ", place_of(body.nodes, first)),
+         "let its surfaces bound the volumes, on one side only"});
+  }
+  return all;
+}
+
 }  // namespace faultsim

@@ -21,6 +21,10 @@ struct FaultFacet {
 std::vector<std::vector<FaultFacet>> fault_facets(const UncutMesh& body, const CellFaces& faces,
                                                   std::vector<Problem>& problems);
 
+/// The faces of each group of the boundary; what is wrong with them is appended to `problems`.
+std::vector<std::vector<CellFace>> boundary_facets(const UncutMesh& body, const CellFaces& faces,
+                                                   std::vector<Problem>& problems);
+
 /// n dA of a facet, by the order of its corners, m2.
 Eigen::Vector3d area_vector(const std::vector<Eigen::Vector3d>& nodes,
                             const std::array<int, 4>& corners);

@@ -12,7 +12,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kLeastJacobian = 0.1;  // below this the element's stiffness is badly conditioned
+/// Below this an element's stiffness is badly conditioned; cells of a generator are better than
+/// those that fill a body between given surfaces.
+double least_jacobian(CellShape shape) { return shape == CellShape::hexahedron ? 0.1 : 1e-3; }
 
 /// The three nodes joined to each corner of a VTK hexahedron, right-handed.
 constexpr std::array<std::array<size_t, 3>, 8> kNeighbours = {
@@ -70,12 +72,15 @@ MeshQuality check_quality(const Mesh& mesh) {
       if (std::isnan(one.scaled_jacobian)) break;
     }
   }
-  if (!(quality.min_scaled_jacobian > kLeastJacobian)) {
+  const double least = least_jacobian(mesh.cells.shape());
+  if (!(quality.min_scaled_jacobian > least)) {
     const Vector3d& at = quality.worst_position;
     quality.refusal = concat("a cell at x = ", at.x(), " m, y = ", at.y(), " m, z = ", at.z(),
                              " m is too distorted: its scaled Jacobian ",
-                             quality.min_scaled_jacobian, " is not above ", kLeastJacobian,
-                             "; move the faults apart, reduce their dip or enlarge the body");
+                             quality.min_scaled_jacobian, " is not above ", least,
+                             mesh.cells.shape() == CellShape::hexahedron
+                                 ? "; move the faults apart, reduce their dip or enlarge the body"
+                                 : "; mesh finer there, or optimise the mesh (Mesh.Optimize)");
   }
   return quality;
 }

@@ -4,6 +4,7 @@
 
 #include "simulator/operators/prepare_operator.h"
 #include "simulator/plan/boundary_conditions.h"
+#include "simulator/scene/mesh_body.h"
 
 namespace faultsim {
 namespace {
@@ -40,6 +41,8 @@ void add_boundary_loads(const Scene& scene, std::vector<LoadCase>& loads) {
     load.displacement = condition.kind == BoundaryKind::displacement;
     if (!load.displacement) {
       load.stress_groups.assign(condition.sides.begin(), condition.sides.end());
+      for (const std::string& name : condition.surfaces)
+        load.stress_groups.emplace_back(surface_number(*scene.box.mesh->content, name));
       load.stress =
           Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(condition.stress.data());
     }

@@ -1,16 +1,22 @@
 #include "simulator/plan/boundary_conditions.h"
 
+#include "simulator/scene/mesh_body.h"
+
 namespace faultsim {
 namespace {
 
-DisplacementCondition held(Side side, std::array<bool, 3> components) {
-  return {side, components, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1};
+DisplacementCondition held(BoundaryGroup group, std::array<bool, 3> components) {
+  return {group, components, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1};
+}
+
+std::array<bool, 3> one_component(std::size_t axis) {
+  std::array<bool, 3> components = {false, false, false};
+  components[axis] = true;
+  return components;
 }
 
 std::array<bool, 3> normal_only(Side side) {
-  std::array<bool, 3> components = {false, false, false};
-  components[static_cast<std::size_t>(side) / 2] = true;
-  return components;
+  return one_component(static_cast<std::size_t>(side) / 2);
 }
 
 }  // namespace
@@ -33,6 +39,16 @@ std::vector<DisplacementCondition> displacement_conditions(const Scene& scene, i
     const Eigen::Matrix3d gradient =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(condition.gradient.data());
     const Eigen::Vector3d translation(condition.translation.data());
+    for (const std::string& name : condition.surfaces) {
+      const GmshMesh& mesh = *scene.box.mesh->content;
+      const BoundaryGroup group(surface_number(mesh, name));
+      if (condition.kind == BoundaryKind::roller)
+        conditions.push_back(held(group, one_component(*axis_across(mesh, group.index))));
+      if (condition.kind == BoundaryKind::fixed)
+        conditions.push_back(held(group, {true, true, true}));
+      if (condition.kind == BoundaryKind::displacement)
+        conditions.push_back({group, condition.components, translation, gradient, load});
+    }
     for (const Side side : condition.sides) {
       if (condition.kind == BoundaryKind::roller)
         conditions.push_back(held(side, normal_only(side)));

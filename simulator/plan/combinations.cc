@@ -26,6 +26,16 @@ constexpr Refusal kRefusals[] = {
     {Feature::cohesion_loss, Feature::coupled_path,
      "the coupled path does not follow the jump of a first slip that ends cohesion",
      "leave cohesion_after_slip at true, or take the condensed path (--path condensed)"},
+    {Feature::mesh_file, Feature::plane_strain, "a mesh from a file is modelled in 3D, as it is",
+     "set /numerics/plane_strain to \"off\", or mesh a slab with rollers in front and behind"},
+    {Feature::mesh_file, Feature::half_domain, "a mesh from a file is modelled as it is",
+     "mesh the half, with a roller on its plane of symmetry"},
+    {Feature::mesh_file, Feature::flow_result,
+     "a flow result is mapped onto the hexahedra of grids, not yet onto a mesh from a file",
+     "say the pressures by compartments"},
+    {Feature::mesh_file, Feature::coupled_path,
+     "the coupled path does not yet have the jumps of a mesh from a file",
+     "take the condensed path (--path condensed)"},
     {Feature::creep, Feature::contact_problem,
      "a load step with creeping salt is not one contact problem but several",
      "export the elastic case: --set /numerics/creep=off"},
@@ -49,12 +59,13 @@ constexpr Named kNames[] = {
     {Feature::plane_strain, "plane strain", "/numerics/plane_strain"},
     {Feature::weakening, "weakening", "/faults"},
     {Feature::cohesion_loss, "cohesion lost by slip", "/faults"},
+    {Feature::mesh_file, "mesh from a file", "/geometry/file"},
     {Feature::coupled_path, "coupled path", ""},
     {Feature::displacements, "displacement fields", "/output/volume_fields"},
     {Feature::contact_problem, "`export-contact`", ""},
     {Feature::influences, "`influence`", ""},
 };
-constexpr std::size_t kSceneFeatures = 9;
+constexpr std::size_t kSceneFeatures = 10;
 
 bool weakens(const Fault& fault) {
   return fault.friction.dynamic_friction_angle != fault.friction.static_friction_angle;
@@ -106,10 +117,12 @@ std::vector<Feature> features_of(const Scene& scene, const Plan& plan) {
   add(std::ranges::any_of(scene.stages,
                           [](const Stage& stage) { return stage.stress_change.has_value(); }),
       Feature::stress_change);
-  add(plan.half_domain, Feature::half_domain);
+  const bool half_of_mesh = is_meshed(scene) && scene.numerics.half_domain == Switch::on;
+  add(plan.half_domain || half_of_mesh, Feature::half_domain);
   add(plan.plane_strain, Feature::plane_strain);
   add(std::ranges::any_of(faults, weakens), Feature::weakening);
   add(std::ranges::any_of(faults, loses_cohesion), Feature::cohesion_loss);
+  add(is_meshed(scene), Feature::mesh_file);
   add(scene.output.volume_fields, Feature::displacements);
   return features;
 }

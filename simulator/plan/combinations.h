@@ -21,6 +21,7 @@ enum class Feature {
   plane_strain,
   weakening,      ///< friction that falls with slip: events.
   cohesion_loss,  ///< by the first slip.
+  mesh_file,      ///< a mesh from a file in place of a grid.
   // asked for
   coupled_path,
   displacements,    ///< of the whole mesh.

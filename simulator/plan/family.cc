@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "simulator/common/ranges.h"
 #include "simulator/documents/canonical_text.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/field_depths.h"
@@ -94,6 +95,15 @@ void add_box(const BoxMeshSpec& box, ObjectText& family) {
   family.add("boundary", lists(box.boundary));
 }
 
+void add_mesh(const Scene& scene, ObjectText& family) {
+  family.add("kind", "mesh");
+  family.add("file", scene.box.mesh->content->fingerprint);
+  family.add("volumes", lists(scene.box.mesh->volumes));
+  family.add("faults", mapped(scene.faults, &Fault::name));
+  family.add("boundary", lists(scene.box.boundary));
+  family.add("surfaces", mapped(scene.box.boundary, &BoundaryCondition::surfaces));
+}
+
 /// Absent where nothing creeps: elastic families are those from before there was creep.
 void add_creep(const Scene& scene, const CreepPlan& creep, ObjectText& family) {
   const auto viscosity = [&](std::string& to, const Material& m) {
@@ -144,12 +154,14 @@ std::string canonical_family(const Scene& scene, const Plan& plan) {
   if (scene.numerics.surface.wanted()) return family_of_surface(scene, plan);
   std::string text;
   ObjectText family(text);
-  if (scene.geometry_kind == GeometryKind::field) {
+  if (is_meshed(scene)) {
+    add_mesh(scene, family);
+  } else if (scene.geometry_kind == GeometryKind::field) {
     add_field(field_mesh_spec(scene, plan), family);
   } else {
     add_box(box_mesh_spec(scene, plan), family);
   }
-  family.add("sizes", [&](std::string& to) { members(to, scene.mesh); });
+  if (!is_meshed(scene)) family.add("sizes", [&](std::string& to) { members(to, scene.mesh); });
   if (scene.mesh.grades_corners()) {
     family.add("corners", std::array{scene.mesh.corner, scene.mesh.corner_growth});
   }

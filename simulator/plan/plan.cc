@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "simulator/common/fingerprint.h"
@@ -12,6 +13,8 @@
 #include "simulator/mesh/patch_frame.h"
 #include "simulator/plan/combinations.h"
 #include "simulator/plan/creep_plan.h"
+#include "simulator/plan/mesh_from_file.h"
+#include "simulator/plan/planned_grid.h"
 #include "simulator/scene/field_depths.h"
 
 namespace faultsim {
@@ -36,6 +39,10 @@ Reduction plan_plane_strain(const Scene& scene) {
   r.name = "plane_strain";
   r.switch_ = "/numerics/plane_strain";
   r.applied = scene.numerics.plane_strain == Switch::on;
+  if (is_meshed(scene)) {
+    r.reason = "a mesh is modelled as given";
+    return r;
+  }
   if (scene.geometry_kind == GeometryKind::field) {
     r.bound = "ignores the ends of blocks and faults; measure it with a 3D tier";
   } else if (const std::string names = ending_patches(scene); !names.empty()) {
@@ -67,7 +74,7 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   Reduction r{"half_domain", false, "", "", "/numerics/half_domain", {}};
   const std::string exact = "exact by symmetry: areas, potency and M0 are doubled";
   if (scene.geometry_kind != GeometryKind::field) {
-    r.reason = "a box is modelled as given";
+    r.reason = is_meshed(scene) ? "a mesh is modelled as given" : "a box is modelled as given";
   } else if (plane_strain) {
     r.reason = "plane strain has no extent along strike";
   } else if (scene.numerics.half_domain == Switch::off) {
@@ -97,119 +104,6 @@ void require_half_domain(const Scene& scene, const Plan& plan, std::vector<Probl
                       "set it to \"off\", and choose another tier than one for half domains"});
 }
 
-/// Lines strictly between two coordinates, as a range [first, second).
-std::pair<int, int> lines_between(const std::vector<double>& lines, double from, double to) {
-  const auto first = std::ranges::upper_bound(lines, from + 1e-6);
-  const auto last = std::lower_bound(first, lines.end(), to - 1e-6);
-  return {static_cast<int>(first - lines.begin()), static_cast<int>(last - lines.begin())};
-}
-
-/// The line at a coordinate, or next to it: where a fault lies on the grid before it is sheared.
-std::pair<int, int> line_at(const std::vector<double>& lines, double at) {
-  const auto first = std::ranges::lower_bound(lines, at - 1e-6);
-  const int line =
-      std::min(static_cast<int>(first - lines.begin()), static_cast<int>(lines.size()) - 1);
-  return {line, line + 1};
-}
-
-std::vector<FaultWindow> field_faults(const Scene& scene, const Plan& plan,
-                                      const GridLines& lines) {
-  const FieldGeometry& field = scene.field;
-  const bool has_ends = field.fault_length < field.length;  // else the model's ends cut it
-  const double reach = has_ends ? field.fault_length / 2 : field.length;
-  const auto columns = plan.plane_strain ? std::pair{0, 1} : lines_between(lines[1], -reach, reach);
-  std::vector<FaultWindow> faults;
-  for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
-    const DepthInterval range = fault_range(field, f);
-    faults.push_back({{line_at(lines[0], fault_x(field, f)), columns,
-                       lines_between(lines[2], -range.bottom, -range.top)}});
-  }
-  return faults;
-}
-
-/// A patch covers the grid plane nearest to its own, from edge to edge.
-FaultWindow box_fault(const PatchGeometry& patch, const Plan& plan, const GridLines& lines) {
-  constexpr double kQuarter = 0.78539816339744831;  // pi/4
-  const bool is_flat = patch.dip_from_vertical > kQuarter || patch.dip_from_vertical < -kQuarter;
-  const bool strikes_along_x = std::abs(std::sin(patch.strike)) > std::abs(std::cos(patch.strike));
-  const std::size_t column_axis = strikes_along_x ? 0 : 1;
-  const std::size_t row_axis = is_flat ? 1 - column_axis : 2;
-  const std::size_t axis = 3 - column_axis - row_axis;
-  const double dip = patch.dip_from_vertical;
-  const double along = strikes_along_x ? std::sin(patch.strike) : std::cos(patch.strike);
-  std::array<double, 3> half{};
-  half[column_axis] = patch.length / 2 * std::abs(along);
-  half[row_axis] = patch.width / 2 * std::abs(is_flat ? std::sin(dip) : std::cos(dip));
-  FaultWindow w;
-  for (std::size_t a = 0; a < 3; ++a) {
-    w.lines[a] =
-        a == axis ? line_at(lines[a], patch.center[a])
-                  : lines_between(lines[a], patch.center[a] - half[a], patch.center[a] + half[a]);
-  }
-  if (plan.plane_strain) w.lines[1] = {0, 1};
-  if (patch.shape == PatchShape::ellipse && !plan.plane_strain) w.share = kQuarter;
-  return w;
-}
-
-GridLines lines_of(const Scene& scene, const Plan& plan, std::vector<Problem>& problems) {
-  const bool is_field = scene.geometry_kind == GeometryKind::field;
-  return is_field ? grid_lines(field_mesh_spec(scene, plan), problems)
-                  : grid_lines(box_mesh_spec(scene, plan), problems);
-}
-
-GridShape grid_shape(const Scene& scene, const Plan& plan, const GridLines& lines) {
-  GridShape shape;
-  const int n_y = plan.plane_strain ? 1 : static_cast<int>(lines[1].size());
-  shape.n_lines = {static_cast<int>(lines[0].size()), n_y, static_cast<int>(lines[2].size())};
-  shape.unknowns_per_node = plan.plane_strain ? 2 : 3;
-  shape.n_loads = static_cast<int>(scene.pressure.size() + scene.box.boundary.size() +
-                                   3 * scene.output.observation_points.size());
-  if (scene.geometry_kind == GeometryKind::field) {
-    shape.faults = field_faults(scene, plan, lines);
-  } else {
-    for (const PatchGeometry& patch : scene.box.patches) {
-      shape.faults.push_back(box_fault(patch, plan, lines));
-    }
-  }
-  return shape;
-}
-
-/// Intervals between lines whose middle lies between two coordinates.
-double intervals(const std::vector<double>& lines, double from, double to) {
-  int n = 0;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    const double middle = 0.5 * (lines[i - 1] + lines[i]);
-    n += middle > from && middle < to;
-  }
-  return n;
-}
-
-/// About how many cells lie in pressure regions, from the lines of the grid before it is sheared
-/// and shifted: what a field of pressures or temperatures has an influence of.
-double reservoir_cells(const Scene& scene, const GridLines& lines, bool plane_strain) {
-  const auto box = [&](double x0, double x1, double y0, double y1, double z0, double z1) {
-    const double along = plane_strain ? 1 : intervals(lines[1], y0, y1);
-    return intervals(lines[0], x0, x1) * along * intervals(lines[2], z0, z1);
-  };
-  double n = 0;
-  if (scene.geometry_kind == GeometryKind::field) {
-    const double half = scene.field.block_length / 2;
-    for (const Block& block : scene.field.blocks) {
-      const DepthInterval range = reservoir_range(scene.field, block);
-      n += box(block.from, block.to, -half, half, -range.bottom, -range.top);
-    }
-    return n;
-  }
-  for (const PressureRegion& region : scene.box.regions) {
-    constexpr double kDiscOfSquare = 0.785;  // pi/4
-    const auto [low, high] = bounds_of(region);
-    n += (region.shape == RegionShape::disc ? kDiscOfSquare : 1) *
-         box(low[0], high[0], low[1], high[1], low[2], high[2]);
-  }
-  return n;
-}
-
-/// The program, and the build of the last operator beside what the others keep.
 void predict_cost(const GridShape& shape, Plan& plan) {
   const OperatorCost cost = operator_cost(shape);
   const auto rungs = static_cast<double>(plan.creep.rungs.size());
@@ -227,10 +121,6 @@ void predict_influence(const Scene& scene, const GridShape& shape, double n_cell
   plan.influence_bytes = cost.bytes;
   plan.operator_seconds += cost.seconds;
   plan.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + cost.peak_bytes);
-}
-
-int material_index(const Scene& scene, const std::string& name) {
-  return static_cast<int>(&material_named(scene, name) - scene.materials.data());
 }
 
 /// The figures of a saving, or none.
@@ -278,6 +168,7 @@ MeshRequest mesh_request(const Scene& scene, const Plan& plan) {
 std::string minus_side(const Scene& scene, const Plan& plan) {
   if (scene.faults.empty()) return "";
   if (scene.geometry_kind == GeometryKind::field) return "x-";
+  if (is_meshed(scene)) return "";  // each fault's own
   std::vector<Problem> said_elsewhere;
   const std::size_t axis = common_axis(patch_frames(box_mesh_spec(scene, plan), said_elsewhere));
   return axis < 3 ? std::string(1, "xyz"[axis]) + "-" : "";
@@ -362,6 +253,7 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
 }
 
 Mesh scene_mesh(const Scene& scene, const Plan& plan) {
+  if (is_meshed(scene)) return mesh_from_file(scene);
   return scene.geometry_kind == GeometryKind::field ? make_mesh(field_mesh_spec(scene, plan))
                                                     : make_mesh(box_mesh_spec(scene, plan));
 }
@@ -377,11 +269,10 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   require_half_domain(scene, plan, problems);
   for (Problem& problem : unsupported(scene, plan)) problems.push_back(std::move(problem));
 
-  const GridLines lines = lines_of(scene, plan, problems);
-  if (std::ranges::any_of(lines, [](const auto& line) { return line.size() < 2; })) return plan;
-  const GridShape shape = grid_shape(scene, plan, lines);
-  plan.n_cells =
-      static_cast<long>((lines[0].size() - 1) * (lines[1].size() - 1) * (lines[2].size() - 1));
+  const std::optional<PlannedGrid> grid = planned_grid(scene, plan, problems);
+  if (!grid) return plan;
+  const GridShape& shape = grid->shape;
+  plan.n_cells = grid->n_cells;
   plan.n_jump = std::lround(shape.n_jump());
   plan.n_unknowns = std::lround(shape.unknowns_per_node * shape.n_nodes()) + plan.n_jump;
   for (const StepEnd& step : step_ends(scene)) {
@@ -390,7 +281,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   }
   plan.minus_side = minus_side(scene, plan);
   predict_cost(shape, plan);
-  predict_influence(scene, shape, reservoir_cells(scene, lines, plan.plane_strain), plan);
+  predict_influence(scene, shape, grid->n_loaded, plan);
   plan.n_operators = predicted_operators(scene.numerics.surface);
   plan.operator_seconds *= plan.n_operators;
   if (scene.numerics.surface.wanted()) {
@@ -414,8 +305,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems, const Scene& 
 
 InfluenceCost plan_influence(const Scene& scene, const Plan& plan, long n_cells) {
   std::vector<Problem> problems;
-  const GridLines lines = lines_of(scene, plan, problems);
-  return influence_cost(grid_shape(scene, plan, lines), static_cast<double>(n_cells),
+  return influence_cost(planned_grid(scene, plan, problems)->shape, static_cast<double>(n_cells),
                         3.0 * static_cast<double>(scene.output.observation_points.size()));
 }
 

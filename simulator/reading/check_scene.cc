@@ -145,7 +145,17 @@ void check_box(SceneReader& reader, const Scene& scene) {
 }
 
 void check_column(SceneReader& reader, const Scene& scene) {
-  if (scene.initial.kind != InitialStressKind::column || !reader.sound("/initial_state")) return;
+  if (!reader.sound("/initial_state")) return;
+  if (is_meshed(scene) && scene.initial.viscous_layers == ViscousLayers::lithostatic) {
+    reader.problem("/initial_state/viscous_layers", "a mesh has no layers to be lithostatic in",
+                   "take \"ratios\"");
+  }
+  if (scene.initial.kind != InitialStressKind::column) return;
+  if (is_meshed(scene)) {
+    reader.problem("/initial_state/kind", "a mesh has no layers that a column could weigh",
+                   "use \"kind\": \"profile\" or \"tensor\"");
+    return;
+  }
   if (scene.geometry_kind == GeometryKind::box) {
     if (std::abs(scene.box.to[2]) > 0) {
       reader.problem(
@@ -228,7 +238,7 @@ void check_geometry(SceneReader& reader, const Scene& scene) {
     check_offsets(reader, scene.field);
     check_crossing(reader, scene);
   } else {
-    check_box(reader, scene);
+    if (!is_meshed(scene)) check_box(reader, scene);
   }
   check_contrast(reader, scene);
   check_column(reader, scene);

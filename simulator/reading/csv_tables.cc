@@ -71,6 +71,19 @@ void embed_field(json& scene, const std::string& source, const std::string& name
   }
 }
 
+/// The same of a mesh.
+void embed_mesh(json& scene, const std::string& source, const std::string& name) {
+  const FieldPlace place = field_place(scene, source, name);
+  if (!place.fingerprint.empty()) return;
+  if (scene.contains("fields") && !scene["fields"].is_object()) return;
+  try {
+    const std::string path = std::filesystem::absolute(place.path).lexically_normal().string();
+    if (first_unprintable(path).empty())
+      scene["fields"][name] = {{"path", path}, {"fingerprint", read_gmsh(place.path).fingerprint}};
+  } catch (const InputError&) {  // said by who reads the scene
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> table_names(const json& scene) {
@@ -131,6 +144,9 @@ void embed_fields(json& scene, const std::string& source, const json& named) {
     if (scene.is_object() && name != nullptr && name->is_string())
       embed_field(scene, source, name->get<std::string>(), quantity);
   }
+  const json* mesh = value_at(named, "/geometry/file");
+  if (scene.is_object() && mesh != nullptr && mesh->is_string())
+    embed_mesh(scene, source, mesh->get<std::string>());
 }
 
 std::string table_text(const json& scene, const std::string& source, const std::string& name) {

@@ -7,6 +7,7 @@
 #include "simulator/reading/fault_pressure_csv.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
+#include "simulator/scene/mesh_body.h"
 
 /// Faults: each takes the top-level friction and fault_pressure and overrides them key by key.
 namespace faultsim {
@@ -198,6 +199,34 @@ PatchGeometry read_patch(SceneReader& reader, const std::string& at) {
   return patch;
 }
 
+/// The patch of a fault of a box, or the mean plane of that of a mesh; of a field no more than the
+/// dip is given.
+void read_place(SceneReader& reader, const std::string& at, const Fault& fault, Scene& scene) {
+  const bool is_mesh = reader.text("/geometry/kind") == "mesh";
+  const bool is_field = scene.geometry_kind == GeometryKind::field;
+  if (!is_mesh) check_dip(reader, at, !is_field, fault.dip_from_vertical);
+  if (is_mesh && is_meshed(scene)) {
+    const GmshMesh& mesh = *scene.box.mesh->content;
+    reader.require_known(at + "name", fault.name, "physical surface of the mesh",
+                         mesh.facet_groups);
+    const int surface = surface_number(mesh, fault.name);
+    scene.box.patches.push_back(surface < 0 ? PatchGeometry{} : mean_patch(mesh, surface));
+  }
+  if (!is_mesh && !is_field) scene.box.patches.push_back(read_patch(reader, at));
+  const auto place_of = places_in(reader, at);
+  for (const char* key : {"center", "strike", "length", "width", "shape", "dip_from_vertical"}) {
+    if (place_of(key).value == nullptr) continue;
+    if (is_field && std::string_view(key) != "dip_from_vertical") {
+      reader.problem(at + key, "faults of a field lie at the ends of the blocks",
+                     "remove it; blocks, fault_length and fault_overshoot say where faults are");
+    }
+    if (is_mesh) {
+      reader.problem(at + key, "a fault of a mesh lies where its physical surface does",
+                     "remove it");
+    }
+  }
+}
+
 /// What fault i says, or what is read once for all faults that say nothing.
 template <typename Struct, typename Read>
 Struct own_or_shared(const SceneReader& reader, const char* name, std::size_t fault,
@@ -223,7 +252,6 @@ void check_count(SceneReader& reader, const Scene& scene) {
 }  // namespace
 
 void read_faults(SceneReader& reader, Scene& scene) {
-  const bool is_box = scene.geometry_kind == GeometryKind::box;
   const bool known_kind = reader.sound("/geometry/kind");
   std::vector<std::string> names;
   std::optional<CoulombLaw> friction;  // of those that say nothing
@@ -235,17 +263,7 @@ void read_faults(SceneReader& reader, Scene& scene) {
     const std::string own_biot = at + "fault_biot";
     fault.fault_biot = reader.real(reader.has(own_biot) ? own_biot : "/fault_pressure/fault_biot",
                                    fault.fault_biot);
-    if (known_kind) check_dip(reader, at, is_box, fault.dip_from_vertical);
-    if (known_kind && is_box) {
-      scene.box.patches.push_back(read_patch(reader, at));
-    }
-    const auto place_of = places_in(reader, at);
-    for (const char* key : {"center", "strike", "length", "width", "shape"}) {
-      if (known_kind && !is_box && place_of(key).value != nullptr) {
-        reader.problem(at + key, "faults of a field lie at the ends of the blocks",
-                       "remove it; blocks, fault_length and fault_overshoot say where faults are");
-      }
-    }
+    if (known_kind) read_place(reader, at, fault, scene);
     fault.friction = own_or_shared(reader, "friction", i, friction, [&](const Overrides& from) {
       return read_friction(reader, from);
     });
@@ -256,7 +274,7 @@ void read_faults(SceneReader& reader, Scene& scene) {
     names.push_back(fault.name);
   }
   reader.require_unique("/faults", "/name", names);
-  if (!is_box) check_count(reader, scene);
+  if (scene.geometry_kind == GeometryKind::field) check_count(reader, scene);
 }
 
 }  // namespace faultsim

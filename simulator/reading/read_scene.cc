@@ -65,12 +65,22 @@ void require_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
           (is_box ? "" : ", or choose a tier: screening, standard or reference"));
 }
 
+/// The cells of a mesh are there.
+void refuse_cell_sizes(SceneReader& reader, Scene& scene) {
+  for (const char* key : {"/mesh", "/tier"}) {
+    if (reader.has(key))
+      reader.problem(key, "has no effect: the cells are those of the mesh", "remove it");
+  }
+  default_creep_refinements(reader, scene.numerics);
+}
+
 }  // namespace
 
 void read_mesh(SceneReader& reader, Scene& scene) {
   read_keys(reader, "/numerics/", scene.numerics);
   for_each_creep_key(scene.numerics, key_reader(reader, places_in(reader, "/numerics/")));
   scene.tier = reader.text("/tier", "custom");
+  if (reader.text("/geometry/kind") == "mesh") return refuse_cell_sizes(reader, scene);
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   if (is_box && scene.tier != "custom" && reader.sound("/geometry/kind")) {
     reader.problem("/tier", "tiers are for a field, this is a box",

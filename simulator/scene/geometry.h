@@ -1,10 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "simulator/gmsh/gmsh_mesh.h"
 #include "simulator/scene/scene_key.h"
 
 /// What a scene is made of, in space: materials, the field or box, cells.
@@ -153,7 +155,8 @@ void for_each_key(Of<TimeTable> auto& t, auto&& visit) {
 }
 
 struct BoundaryCondition {
-  std::vector<Side> sides;
+  std::vector<Side> sides;            ///< of a box.
+  std::vector<std::string> surfaces;  ///< of a mesh, by the names of physical surfaces.
   BoundaryKind kind = BoundaryKind::roller;
   std::array<bool, 3> components = {true, true, true};  ///< of `displacement`: which of x, y, z.
   std::array<double, 3> translation = {0, 0, 0};        ///< m.
@@ -163,7 +166,8 @@ struct BoundaryCondition {
   bool operator==(const BoundaryCondition&) const = default;
 };
 void for_each_key(Of<BoundaryCondition> auto& c, auto&& visit) {
-  visit({"sides", kByHand | kFamily}, c.sides);
+  visit({"sides", kByHand | unless(c.surfaces.empty(), kSilent) | kFamily}, c.sides);
+  visit({"surfaces", kByHand | unless(!c.surfaces.empty(), kSilent)}, c.surfaces);
   visit({"kind", kFamily}, c.kind);
   const bool moves = c.kind == BoundaryKind::displacement;
   const bool pulls = c.kind == BoundaryKind::stress;
@@ -208,6 +212,37 @@ Bounds bounds_of(const PressureRegion& region);
 /// As of a rectangle.
 Bounds bounds_of(const PatchGeometry& patch);
 
+/// A volume of a mesh file, by the name of its physical volume.
+struct MeshVolume {
+  std::string name;
+  std::string material;
+  std::string compartment;  ///< a pressure region; "" = none.
+  bool operator==(const MeshVolume&) const = default;
+};
+void for_each_key(Of<MeshVolume> auto& v, auto&& visit) {
+  visit({"name"}, v.name);
+  visit({"material", kRequired | kFamily}, v.material);
+  visit({"compartment", kFamily}, v.compartment);
+}
+
+/// A mesh from a file, in place of the grid of a box.
+struct MeshFile {
+  std::string name;                         ///< as the scene names it.
+  std::shared_ptr<const GmshMesh> content;  ///< never null.
+  std::vector<MeshVolume> volumes;          ///< in the order of content->cell_groups.
+  long n_sides = 0;                         ///< of its cells, each once.
+  bool operator==(const MeshFile& other) const {
+    return content->fingerprint == other.content->fingerprint && volumes == other.volumes;
+  }
+};
+void for_each_key(Of<MeshFile> auto& m, auto&& visit) {
+  visit({"file", kByHand}, m.content->fingerprint);
+  visit({"volumes", kByHand}, m.volumes);
+}
+
+/// A body with patches of fault: a box with a grid, or a mesh from a file. Of a mesh `from` and
+/// `to` are its bounds, `patches` the mean planes of its faults, and `regions` the bounds of its
+/// compartments; nothing is meshed by these.
 struct BoxGeometry {
   std::array<double, 3> from = {0, 0, 0};   ///< m, lower corner.
   std::array<double, 3> to = {0, 0, 0};     ///< m, upper corner.
@@ -216,6 +251,7 @@ struct BoxGeometry {
   std::vector<PatchGeometry> patches;       ///< one per Scene::faults, same order.
   std::vector<BoundaryCondition> boundary;  ///< faces not mentioned: free.
   std::vector<PressureRegion> regions;
+  std::optional<MeshFile> mesh;
   bool operator==(const BoxGeometry&) const = default;
 };
 void for_each_key(Of<BoxGeometry> auto& b, auto&& visit) {
@@ -227,6 +263,7 @@ void for_each_key(Of<BoxGeometry> auto& b, auto&& visit) {
   visit({"patches", kByHand}, b.patches);
   visit({"boundary", kByHand}, b.boundary);
   visit({"regions", kByHand}, b.regions);
+  visit({"mesh", kByHand | unless(b.mesh.has_value(), kSilent)}, b.mesh);
 }
 
 enum class GeometryKind { field, box };

@@ -96,6 +96,8 @@ const std::vector<Layer>& layers_of(const Scene& scene) {
 }
 
 bool is_used(const Scene& scene, const Material& material) {
+  if (is_meshed(scene))
+    return contains(scene.box.mesh->volumes, material.name, &MeshVolume::material);
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   return material.name == (is_field ? scene.field.sideburden : scene.box.material) ||
          contains(layers_of(scene), material.name, &Layer::material);

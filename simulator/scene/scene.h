@@ -420,6 +420,8 @@ void set_value(const SurfaceParameter& one, double value, Scene& scene);
 std::vector<std::string> region_names(const Scene& scene);
 /// Of the field or the box; of a box there may be none.
 const std::vector<Layer>& layers_of(const Scene& scene);
+/// Whether the body is a mesh from a file.
+inline bool is_meshed(const Scene& scene) { return scene.box.mesh.has_value(); }
 /// Whether the geometry is made of a material; the scene may list others.
 bool is_used(const Scene& scene, const Material& material);
 std::vector<Material> used_materials(const Scene& scene);

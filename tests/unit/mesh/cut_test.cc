@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -154,6 +155,26 @@ TEST(Cut, SidesDoNotDependOnHowFacetsAreTurned) {
     EXPECT_EQ(mesh.faults[0].nodes[k].normal, Vector3d(0, 1, 0));
 }
 
+TEST(Cut, ACurvedFaultMeetsAPlaneSideInTheSidesPlane) {
+  UncutMesh body = cube_with({kThrough});
+  for (Vector3d& x : body.nodes) x.x() += 0.2 * std::sin(x.z());
+  const Mesh mesh = cut(body, "");
+  double largest_off = 0;
+  for (const FaultNode& node : mesh.faults[0].nodes) {
+    const double y = mesh.nodes[static_cast<std::size_t>(node.minus_node)].y();
+    if (y == 0 || y == 4) {
+      EXPECT_EQ(node.normal.y(), 0);
+      EXPECT_EQ(node.strike, Vector3d(0, -1, 0));
+    }
+    largest_off = std::max(largest_off, std::abs(node.normal.y()));
+  }
+  EXPECT_LT(largest_off, 0.1);
+  const Mesh oblique = cut(cube_with({{"F", {1, -1, 0}, 0}}), "");
+  for (const FaultNode& node : oblique.faults[0].nodes)
+    EXPECT_NEAR(std::abs(node.normal.y()), std::sqrt(0.5), 1e-12)
+        << "it meets the sides at 45 degrees";
+}
+
 TEST(Cut, BoundaryGroupsHaveTheirNodes) {
   const Mesh mesh = cut(cube_with({kThrough}), "");
   EXPECT_EQ(mesh.boundary.size(), 6u * 32);
@@ -241,7 +262,7 @@ TEST(Quality, ARegularTetrahedronHasOne) {
   }
   EXPECT_NEAR(check_quality(mesh).min_scaled_jacobian, 1, 1e-12);
   EXPECT_NEAR(check_quality(mesh).max_aspect, 1, 1e-12);
-  mesh.nodes[3] = 0.99 * (corners[0] + corners[1] + corners[2]) / 3 + 0.01 * corners[3];
+  mesh.nodes[3] = 0.9999 * (corners[0] + corners[1] + corners[2]) / 3 + 1e-4 * corners[3];
   EXPECT_THAT(check_quality(mesh).refusal, testing::HasSubstr("is too distorted"));
 }
 

@@ -10,6 +10,7 @@
 #include "simulator/plan/combinations.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/simulation/simulation.h"
+#include "tests/unit/mesh/mesh_scene.h"
 
 /// Each pair of features either runs, as a user would run it, or is refused with the reason of the
 /// one table.
@@ -17,9 +18,9 @@ namespace faultsim {
 namespace {
 
 constexpr Feature kOfScenes[] = {
-    Feature::creep,        Feature::surface,       Feature::flow_result,
-    Feature::temperature,  Feature::stress_change, Feature::half_domain,
-    Feature::plane_strain, Feature::weakening,     Feature::cohesion_loss};
+    Feature::creep,         Feature::surface,     Feature::flow_result,  Feature::temperature,
+    Feature::stress_change, Feature::half_domain, Feature::plane_strain, Feature::weakening,
+    Feature::cohesion_loss, Feature::mesh_file};
 constexpr Feature kAskedFor[] = {Feature::coupled_path, Feature::displacements,
                                  Feature::contact_problem, Feature::influences};
 
@@ -31,6 +32,7 @@ class Combinations : public testing::Test {
     std::ofstream(folder_ / "p.csv")
         << "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [bar], 2000-01-01 [bar]\n"
            "0, 0, 2500, 40000, 40000, 5000, 300, 150\n";
+    test::write_mesh_scene(folder_, test::meshed_cube(2));
   }
   ~Combinations() override { std::filesystem::remove_all(folder_); }
 
@@ -42,7 +44,7 @@ class Combinations : public testing::Test {
                 {"/numerics/creep", "on"},
                 {"/numerics/creep_refinements", "1"}};
       case Feature::surface:
-        return {{"/numerics/surface", R"({"over": [{"parameter": "salt_stiffness",
+        return {{"/numerics/surface", R"({"over": [{"parameter": "/materials/salt/youngs_modulus",
                  "from": "30 GPa", "to": "50 GPa"}], "probes": {"cases": [{}]}})"}};
       case Feature::flow_result:
         return {{"/pressure_field", R"({"file": "p.csv"})"}};
@@ -66,7 +68,9 @@ class Combinations : public testing::Test {
   std::string scene_of(Feature one, Feature other) const {
     const auto has = [&](Feature feature) { return one == feature || other == feature; };
     const bool is_plane = has(Feature::plane_strain) || !has(Feature::half_domain);
-    JsonDocument document = parse_json(starter_scene("field"), "scene");
+    const bool is_mesh = has(Feature::mesh_file);
+    JsonDocument document = is_mesh ? read_json_file((folder_ / "scene.json").string())
+                                    : parse_json(starter_scene("field"), "scene");
     nlohmann::json stage = {{"name", "production"}, {"until", "2000-01-01"}, {"steps", 2}};
     if (!has(Feature::flow_result)) stage["pressure_change"] = "-150 bar";
     if (has(Feature::temperature)) stage["temperature_change"] = "-10 K";
@@ -74,21 +78,24 @@ class Combinations : public testing::Test {
       const nlohmann::json none = {"0 MPa", "0 MPa", "0 MPa"};
       stage["stress_change"] = {{"-1 MPa", "0 MPa", "0 MPa"}, none, none};
     }
-    Changes changes = {
-        {"/tier", "custom"},
-        {"/numerics", is_plane ? R"({"plane_strain": "on"})" : "{}"},
-        {"/mesh", R"({"strike": "1200 m", "dip": "100 m", "normal": "300 m", "growth": 2})"},
-        {"friction_angle", "20 deg"},
-        {"/compartments", "{}"},
-        {"/start_date", "1990-01-01"},
-        {"/stages", nlohmann::json::array({stage}).dump()}};
+    Changes changes = {{"/start_date", "1990-01-01"},
+                       {"/friction", R"({"friction_angle": "20 deg"})"},
+                       {"/compartments", "{}"},
+                       {"/stages", nlohmann::json::array({stage}).dump()}};
+    if (has(Feature::plane_strain)) changes.push_back({"/numerics", R"({"plane_strain": "on"})"});
+    if (!is_mesh) {
+      changes.push_back({"/tier", "custom"});
+      changes.push_back({"/numerics", is_plane ? R"({"plane_strain": "on"})" : "{}"});
+      changes.push_back(
+          {"/mesh", R"({"strike": "1200 m", "dip": "100 m", "normal": "300 m", "growth": 2})"});
+    }
     for (const Feature feature : {one, other}) {
       for (const Change& change : changes_for(feature)) changes.push_back(change);
     }
     for (const Change& change : changes)
       set_value(document, resolve_parameter(document, change.parameter), change.value);
-    std::ofstream(folder_ / "scene.json") << document.value.dump();
-    return (folder_ / "scene.json").string();
+    std::ofstream(folder_ / "pair.json") << document.value.dump();
+    return (folder_ / "pair.json").string();
   }
 
   /// Runs it, by the command that is asked for. @returns what is said where it is refused, "" where

@@ -1,0 +1,80 @@
+#include "simulator/plan/mesh_from_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/common/ranges.h"
+#include "simulator/mesh/structured_grid.h"
+#include "simulator/scene/mesh_body.h"
+
+namespace faultsim {
+namespace {
+
+/// About how many nodes a fault splits: as many as half of its facets, if they are triangles.
+int about_split(const GmshMesh& mesh, int surface) {
+  const auto n = std::ranges::count(mesh.facet_group, surface);
+  return static_cast<int>(mesh.corners_per_cell == 4 ? n / 2 : n);
+}
+
+}  // namespace
+
+int material_index(const Scene& scene, const std::string& name) {
+  return static_cast<int>(&material_named(scene, name) - scene.materials.data());
+}
+
+UncutMesh uncut_mesh(const Scene& scene) {
+  const MeshFile& file = *scene.box.mesh;
+  const GmshMesh& from = *file.content;
+  UncutMesh body;
+  body.nodes = from.nodes;
+  body.shape = from.corners_per_cell == 4 ? CellShape::tetrahedron : CellShape::hexahedron;
+  body.corners = from.cells;
+  const std::vector<std::string> compartments = region_names(scene);
+  for (const int group : from.cell_group) {
+    const MeshVolume& volume = file.volumes[group];
+    const auto region = std::ranges::find(compartments, volume.compartment);
+    const bool has_region = region != compartments.end();
+    body.material.push_back(material_index(scene, volume.material));
+    body.region.push_back(has_region ? static_cast<int>(region - compartments.begin()) : -1);
+    body.region_fraction.push_back(has_region ? 1 : 0);
+  }
+  for (const std::string& name : from.facet_groups) body.boundary.push_back({name, {}});
+  std::vector<int> fault_of(from.facet_groups.size(), -1);
+  for (const Fault& fault : scene.faults) {
+    const int surface = surface_number(from, fault.name);
+    if (surface >= 0) fault_of[surface] = static_cast<int>(body.faults.size());
+    body.faults.push_back({fault.name, {}});
+  }
+  for (std::size_t k = 0; k < from.facets.size(); ++k) {
+    const int surface = from.facet_group[k];
+    FacetGroup& group =
+        fault_of[surface] < 0 ? body.boundary[surface] : body.faults[fault_of[surface]];
+    group.facets.push_back(from.facets[k]);
+  }
+  return body;
+}
+
+Mesh mesh_from_file(const Scene& scene) {
+  Mesh mesh = cut(uncut_mesh(scene), scene.box.mesh->name);
+  refuse_bad_cells(mesh);
+  return mesh;
+}
+
+GridShape shape_of_file(const Scene& scene) {
+  const MeshFile& file = *scene.box.mesh;
+  const auto n_nodes =
+      static_cast<double>(file.content->nodes.size()) + static_cast<double>(file.n_sides);
+  const int side = std::max(2, static_cast<int>(std::lround(std::cbrt(n_nodes))));
+  GridShape shape;
+  shape.n_lines = {side, side, side};
+  for (const Fault& fault : scene.faults) {
+    const double n_split = about_split(*file.content, surface_number(*file.content, fault.name));
+    const int edge = std::clamp(static_cast<int>(std::lround(std::sqrt(n_split))), 1, side);
+    const int middle = side / 2, from = (side - edge) / 2;
+    shape.faults.push_back({{{{middle, middle + 1}, {from, from + edge}, {from, from + edge}}},
+                            n_split / (edge * edge)});
+  }
+  return shape;
+}
+
+}  // namespace faultsim

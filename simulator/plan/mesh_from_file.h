@@ -1,0 +1,26 @@
+#pragma once
+
+#include "simulator/mesh/uncut_mesh.h"
+#include "simulator/plan/cost.h"
+#include "simulator/scene/scene.h"
+
+/// Scenes whose body is a mesh from a file.
+namespace faultsim {
+
+/// The body before its faults cut it: materials and compartments by the scene's numbers, faults in
+/// its order. Boundary groups are the physical surfaces of the file, by their numbers there; those
+/// that are faults have no facets.
+/// @pre is_meshed(scene).
+UncutMesh uncut_mesh(const Scene& scene);
+
+/// Of a material of the scene, its place among them.
+int material_index(const Scene& scene, const std::string& name);
+
+/// Cut, and its cells looked at. Throws InputError about the file.
+Mesh mesh_from_file(const Scene& scene);
+
+/// A cube of as many nodes, with planes of as many jumps: unknowns of tetrahedra cost what those of
+/// grids do.
+GridShape shape_of_file(const Scene& scene);
+
+}  // namespace faultsim
