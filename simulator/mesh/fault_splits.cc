@@ -1,6 +1,8 @@
 #include "simulator/mesh/fault_splits.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "simulator/common/ranges.h"
 
@@ -64,14 +66,23 @@ std::vector<SharedFace> faces_by_sides(const std::vector<SharedFace>& shared,
   return by_sides;
 }
 
-Problem undecided(const UncutMesh& body, const UndecidedNode& node, const Eigen::Vector3d& at) {
-  std::string names;
-  for (const int fault : node.faults)
-    names += concat(names.empty() ? "\"" : ", \"", body.faults[fault].name, "\"");
-  return {"", 0,
-          concat("at ", place_text(at), " the faults ", names,
-                 " cut the rock only together: a jump there would belong to none"),
-          "let one of them go on beyond the other, or make them one fault"};
+/// Places by the faults that cut the rock there only together.
+using UndecidedPlaces = std::map<std::vector<int>, std::vector<Eigen::Vector3d>>;
+
+/// A problem for each set of faults.
+std::vector<Problem> undecided(const UncutMesh& body, const UndecidedPlaces& places) {
+  std::vector<Problem> problems;
+  for (const auto& [faults, at] : places) {
+    std::string names;
+    for (const int fault : faults)
+      names += concat(names.empty() ? "\"" : ", \"", body.faults[fault].name, "\"");
+    problems.push_back({"", 0,
+                        concat("the faults ", names, " cut the rock only together, at ",
+                               counted(at.size(), "node", "nodes"), ", the first at ",
+                               place_text(at.front()), ": a jump there would belong to none"),
+                        "let one of them go on beyond the other, or make them one fault"});
+  }
+  return problems;
 }
 
 /// Cells that hang on a split corner by that corner alone belong to no side of the fault.
@@ -106,19 +117,22 @@ FaultSplits split_at_faults(const UncutMesh& body, const CellFaces& faces,
                             std::vector<Problem>& problems) {
   const std::vector<SharedFace> shared = faces_at_faults(body, faces, facets);
   SplitNodes corners = split_nodes(static_cast<int>(body.nodes.size()), shared);
+  UndecidedPlaces places;
   for (const UndecidedNode& node : corners.undecided)
-    problems.push_back(undecided(body, node, body.nodes[node.node]));
+    places[node.faults].push_back(body.nodes[node.node]);
   FaultSplits splits{std::move(corners.split), {}, {}};
   find_hanging_cells(body, splits.corners, problems);
-  if (body.shape != CellShape::tetrahedron) return splits;
-  splits.side_ends = sides_on_faults(shared);
-  SplitNodes sides = split_nodes(static_cast<int>(splits.side_ends.size()),
-                                 faces_by_sides(shared, splits.side_ends));
-  for (const UndecidedNode& side : sides.undecided) {
-    const auto& [a, b] = splits.side_ends[side.node];
-    problems.push_back(undecided(body, side, (body.nodes[a] + body.nodes[b]) / 2));
+  if (body.shape == CellShape::tetrahedron) {
+    splits.side_ends = sides_on_faults(shared);
+    SplitNodes sides = split_nodes(static_cast<int>(splits.side_ends.size()),
+                                   faces_by_sides(shared, splits.side_ends));
+    for (const UndecidedNode& side : sides.undecided) {
+      const auto& [a, b] = splits.side_ends[side.node];
+      places[side.faults].push_back((body.nodes[a] + body.nodes[b]) / 2);
+    }
+    splits.sides = std::move(sides.split);
   }
-  splits.sides = std::move(sides.split);
+  for (Problem& problem : undecided(body, places)) problems.push_back(std::move(problem));
   return splits;
 }
 

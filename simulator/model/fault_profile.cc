@@ -1,5 +1,6 @@
 #include "simulator/model/fault_profile.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -26,9 +27,29 @@ bool is_northward(const Vector3d& strike) {
   return strike[std::abs(strike.x()) > std::abs(strike.y()) ? 0 : 1] >= 0;
 }
 
+struct Frame {
+  Vector3d strike, dip;
+};
+
+/// That of all nodes of a plane fault; of a curved one by the mean of its normals over its area.
+Frame frame_of(const OperatorFault& fault, const std::vector<OperatorNode>& nodes) {
+  constexpr double kPlane = 1e-9, kHorizontal = 1e-9;
+  const OperatorNode& first = nodes[fault.first_node];
+  Vector3d sum = Vector3d::Zero();
+  bool is_plane = true;
+  for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
+    sum += nodes[k].area * nodes[k].normal;
+    is_plane = is_plane && (nodes[k].normal - first.normal).norm() < kPlane;
+  }
+  const Vector3d across = sum.normalized().cross(Vector3d::UnitZ());
+  if (is_plane || across.norm() < kHorizontal) return {first.strike, first.dip};
+  const Vector3d strike = across.normalized();
+  return {strike, sum.normalized().cross(strike)};
+}
+
 class ProfileBuilder {
  public:
-  ProfileBuilder(const OperatorFault& fault, const OperatorNode& frame)
+  ProfileBuilder(const OperatorFault& fault, const Frame& frame)
       : fault_(fault), strike_(frame.strike), dip_(frame.dip) {
     for (const Vector3d& point : fault.points) along_.push_back(point.dot(strike_));
     narrowest_ = std::numeric_limits<double>::infinity();  // a line has no width
@@ -181,7 +202,7 @@ double Profile::length() const {
 std::vector<Profile> fault_profiles(const OperatorFault& fault,
                                     const std::vector<OperatorNode>& nodes) {
   if (fault.n_nodes == 0) return {};
-  return ProfileBuilder(fault, nodes[fault.first_node]).build();
+  return ProfileBuilder(fault, frame_of(fault, nodes)).build();
 }
 
 }  // namespace faultsim

@@ -54,8 +54,9 @@ struct Profile {
 /// one's: of a grid whose lines go down dip, a profile is such a line, and its samples are its
 /// nodes.
 ///
-/// @pre the fault is plane: the frame of its first node is that of all, and positions down dip
-/// order the points of a profile.
+/// Strike and dip are those of a plane fault, and of a curved one of its mean normal over its area.
+///
+/// @pre positions down that dip order the points of a profile: the fault does not fold over.
 /// @return from south to north, or west to east if strike is nearer to that; none without nodes.
 std::vector<Profile> fault_profiles(const OperatorFault& fault,
                                     const std::vector<OperatorNode>& nodes);

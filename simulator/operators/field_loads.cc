@@ -10,6 +10,7 @@
 #include "simulator/common/text.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
+#include "simulator/plan/field_bodies.h"
 #include "simulator/scene/identity.h"
 
 namespace faultsim {
@@ -20,7 +21,7 @@ std::vector<MappedCell> mapped_cells(const Mesh& mesh, const InfluenceBlock& blo
   std::vector<MappedCell> cells;
   for (const InfluenceCell& cell : block.cells) {
     MappedCell mapped{.corners = {}, .region = cell.region, .fraction = cell.fraction};
-    for (std::size_t i = 0; i < 8; ++i) mapped.corners[i] = mesh.nodes[mesh.cells[cell.cell][i]];
+    mapped.corners = corners_of_cell(mesh, cell.cell);
     if (mesh.plane_strain) mapped.corners = at_section(mapped.corners, load.y);
     cells.push_back(mapped);
   }

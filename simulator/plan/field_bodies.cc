@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <span>
 
 #include "simulator/scene/field_depths.h"
 
@@ -34,12 +35,12 @@ std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
 }
 
 std::vector<MappedCell> bodies_of_box(const Scene& scene, const Plan& plan) {
-  const Mesh mesh = make_mesh(box_mesh_spec(scene, plan));
+  const Mesh mesh = scene_mesh(scene, plan);
   std::vector<MappedCell> bodies;
   const auto add = [&](int cell, int region) {
-    MappedCell body{.corners = {}, .region = region, .fraction = mesh.region_fraction[cell]};
-    for (std::size_t i = 0; i < 8; ++i) body.corners[i] = mesh.nodes[mesh.cells[cell][i]];
-    bodies.push_back(body);
+    bodies.push_back({.corners = corners_of_cell(mesh, cell),
+                      .region = region,
+                      .fraction = mesh.region_fraction[cell]});
   };
   for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
     if (mesh.region[c] >= 0) add(c, mesh.region[c]);
@@ -56,6 +57,15 @@ std::vector<MappedCell> bodies_of_box(const Scene& scene, const Plan& plan) {
 }
 
 }  // namespace
+
+CellCorners corners_of_cell(const Mesh& mesh, int cell) {
+  const std::span<const int> nodes = mesh.cells[cell];
+  const auto at = [&](std::size_t v) { return mesh.nodes[nodes[v]]; };
+  if (mesh.cells.shape() == CellShape::hexahedron)
+    return {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
+  // Five of the six tetrahedra around the diagonal from the first to the seventh are flat.
+  return {at(0), at(1), at(2), at(2), at(0), at(1), at(3), at(3)};
+}
 
 std::vector<MappedCell> field_bodies(const Scene& scene, const Plan& plan, double y) {
   std::vector<MappedCell> bodies = scene.geometry_kind == GeometryKind::field

@@ -17,4 +17,8 @@ std::vector<MappedCell> field_bodies(const Scene& scene, const Plan& plan, doubl
 
 inline constexpr double kBesideFault = 100;  ///< m, in x.
 
+/// The corners of a cell of a mesh for the mapping of a field: a tetrahedron is a hexahedron whose
+/// corners are each there twice, so that its centre and its volume are the tetrahedron's.
+CellCorners corners_of_cell(const Mesh& mesh, int cell);
+
 }  // namespace faultsim

@@ -40,16 +40,19 @@ UncutMesh uncut_mesh(const Scene& scene) {
   }
   for (const std::string& name : from.facet_groups) body.boundary.push_back({name, {}});
   std::vector<int> fault_of(from.facet_groups.size(), -1);
+  std::vector<bool> is_named(from.facet_groups.size(), false);
+  for (const BoundaryCondition& condition : scene.box.boundary)
+    for (const std::string& name : condition.surfaces)
+      is_named[static_cast<std::size_t>(surface_number(from, name))] = true;
   for (const Fault& fault : scene.faults) {
     const int surface = surface_number(from, fault.name);
     if (surface >= 0) fault_of[surface] = static_cast<int>(body.faults.size());
     body.faults.push_back({fault.name, {}});
   }
   for (std::size_t k = 0; k < from.facets.size(); ++k) {
-    const int surface = from.facet_group[k];
-    FacetGroup& group =
-        fault_of[surface] < 0 ? body.boundary[surface] : body.faults[fault_of[surface]];
-    group.facets.push_back(from.facets[k]);
+    const auto surface = static_cast<std::size_t>(from.facet_group[k]);
+    if (fault_of[surface] >= 0) body.faults[fault_of[surface]].facets.push_back(from.facets[k]);
+    if (is_named[surface]) body.boundary[surface].facets.push_back(from.facets[k]);
   }
   return body;
 }

@@ -9,7 +9,7 @@ namespace faultsim {
 
 /// The body before its faults cut it: materials and compartments by the scene's numbers, faults in
 /// its order. Boundary groups are the physical surfaces of the file, by their numbers there; those
-/// that are faults have no facets.
+/// that no boundary condition names have no facets.
 /// @pre is_meshed(scene).
 UncutMesh uncut_mesh(const Scene& scene);
 

@@ -233,12 +233,13 @@ void check_turning_points(SceneReader& reader, const Scene& scene) {
 
 void check_geometry(SceneReader& reader, const Scene& scene) {
   if (!reader.sound("/geometry/kind") || !reader.has("/geometry/kind")) return;
+  if (!reader.sound("/geometry/file") || !reader.sound("/geometry/volumes")) return;
   if (scene.geometry_kind == GeometryKind::field) {
     check_field_extent(reader, scene.field);
     check_offsets(reader, scene.field);
     check_crossing(reader, scene);
-  } else {
-    if (!is_meshed(scene)) check_box(reader, scene);
+  } else if (!is_meshed(scene)) {
+    check_box(reader, scene);
   }
   check_contrast(reader, scene);
   check_column(reader, scene);

@@ -57,7 +57,7 @@ class Aliases {
     first_.emplace(pointer, alias);
   }
   void add_fixed() {
-    add("tier", "/tier");
+    if (!is_mesh()) add("tier", "/tier");
     for (const char* key : {"ratio_across", "ratio_along", "initial_biot", "overpressure"}) {
       add(key, std::string("/initial_state/") + key);
     }
@@ -76,7 +76,22 @@ class Aliases {
     add("slip_tolerance", "/numerics/slip_tolerance");
     add("activation_length", "/numerics/activation_length");
     for (const char* key : {"strike", "dip", "normal"}) {
-      add(std::string("mesh_") + key, std::string("/mesh/") + key);
+      if (!is_mesh()) add(std::string("mesh_") + key, std::string("/mesh/") + key);
+    }
+  }
+  bool is_mesh() const { return text_at(document_, "/geometry/kind") == "mesh"; }
+  void add_compartment(const std::string& name) {
+    const std::string compartment = "/compartments/" + pointer_token(name);
+    add("scale_" + as_word(name), compartment + "/scale");
+    add("lag_" + as_word(name), compartment + "/lag");
+  }
+  void add_volumes() {
+    const nlohmann::json* volumes = value_at(document_, "/geometry/volumes");
+    if (!is_mesh() || volumes == nullptr || !volumes->is_object()) return;
+    for (const auto& [name, volume] : volumes->items()) {
+      const std::string compartment =
+          text_at(document_, "/geometry/volumes/" + pointer_token(name) + "/compartment");
+      if (!compartment.empty()) add_compartment(compartment);
     }
   }
   void add_blocks() {
@@ -88,10 +103,9 @@ class Aliases {
       const std::string name = text_at(document_, element(list, i) + "/name");
       if (is_field) add("offset_" + as_word(name), element(list, i) + "/offset");
       if (is_field) add("overpressure_" + as_word(name), element(list, i) + "/overpressure");
-      const std::string compartment = "/compartments/" + pointer_token(name);
-      add("scale_" + as_word(name), compartment + "/scale");
-      add("lag_" + as_word(name), compartment + "/lag");
+      add_compartment(name);
     }
+    add_volumes();
   }
   void add_material(const std::string& word, const std::string& material) {
     if (material.empty()) return;
@@ -122,11 +136,11 @@ class Aliases {
   }
   void add_faults() {
     const std::size_t n = size_at(document_, "/faults");
-    if (n > 0) add("central_dip", element("/faults", n / 2) + "/dip_from_vertical");
+    if (n > 0 && !is_mesh()) add("central_dip", element("/faults", n / 2) + "/dip_from_vertical");
     for (std::size_t i = 0; i < n; ++i) {
       const std::string at = element("/faults", i) + "/";
       const std::string name = as_word(text_at(document_, at + "name"));
-      add("dip_" + name, at + "dip_from_vertical");
+      if (!is_mesh()) add("dip_" + name, at + "dip_from_vertical");
       for (const char* key :
            {"friction_angle", "dynamic_friction_angle", "slip_weakening_distance", "cohesion"}) {
         add(std::string(key) + "_" + name, at + "friction/" + key);

@@ -115,7 +115,8 @@ class LoadingReader {
   /// Silent when a mistake in the geometry may have hidden the region.
   void require_region(const std::string& pointer, const std::string& region) {
     const bool certain = reader_.sound("/geometry/kind") && reader_.sound("/geometry/blocks") &&
-                         reader_.sound("/geometry/regions");
+                         reader_.sound("/geometry/regions") && reader_.sound("/geometry/file") &&
+                         reader_.sound("/geometry/volumes");
     if (certain && region.empty()) {
       reader_.problem(pointer, "a pressure region has no empty name", suggest(region, regions_));
     } else if (certain) {

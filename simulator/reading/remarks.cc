@@ -42,6 +42,7 @@ class IdleInputs {
     materials();
     temperatures();
     geometry();
+    mesh_file();
     boundaries();
     mesh_and_creep();
     initial_state();
@@ -56,6 +57,17 @@ class IdleInputs {
   void idle(const std::string& pointer, const std::string& why) {
     if (!pointer.empty() && !reader_.has(pointer)) return;
     scene_.remarks.push_back({pointer, "has no effect: " + why});
+  }
+
+  /// What is not taken of a mesh as it is.
+  void mesh_file() {
+    if (!is_meshed(scene_)) return;
+    const double bend = scene_.box.mesh->content->largest_bend;
+    if (bend > 0) {
+      scene_.remarks.push_back(
+          {"/geometry/file",
+           concat("has curved cells: their sides are straightened, by up to ", metres(bend))});
+    }
   }
 
   /// The material whose pressure the blocks change; "" where any may be in a region.

@@ -112,6 +112,30 @@ TEST(FaultProfiles, WhereTheBodyCutsTheFaultIsNoEdge) {
   EXPECT_TRUE(profiles[1].strike_edge);
 }
 
+/// A fault that bends along strike, one end by 40 degrees: its profiles go straight down all the
+/// same.
+TEST(FaultProfiles, OfACurvedFaultGoDownTheMeanDip) {
+  Surface surface = grid({0, 10, 20, 30, 40, 50}, {1000, 1010, 1020, 1030});
+  const auto bent = [](double along) { return 0.0085 * (50 - along) * (50 - along); };
+  for (Eigen::Vector3d& point : surface.fault.points) point.x() = bent(point.y());
+  for (OperatorNode& node : surface.nodes) {
+    const double slope = -2 * 0.0085 * (50 - node.position.y());
+    node.area = 100;
+    node.strike = Eigen::Vector3d(slope, 1, 0).normalized();
+    node.normal = node.strike.cross(Eigen::Vector3d::UnitZ());
+    node.position.x() = bent(node.position.y());
+  }
+  const std::vector<Profile> profiles = surface.profiles();
+  ASSERT_EQ(profiles.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const int first = 2 * static_cast<int>(k);
+    ASSERT_EQ(profiles[k].samples.size(), 2u);
+    EXPECT_EQ(profiles[k].samples[0].node[0], first);
+    EXPECT_EQ(profiles[k].samples[1].node[0], first + 1);
+    EXPECT_NEAR(profiles[k].length(), 30, 1e-9);
+  }
+}
+
 TEST(FaultProfiles, WithoutNodesThereAreNone) {
   Surface surface;
   surface.point(0, 0, false);

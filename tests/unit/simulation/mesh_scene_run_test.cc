@@ -20,6 +20,17 @@ class MeshSceneRun : public testing::Test {
   }
   ~MeshSceneRun() override { std::filesystem::remove_all(folder_); }
 
+  /// Leaves the reservoir on one side of fault A alone.
+  void deplete_one_side() const {
+    UncutMesh body = test::meshed_cube();
+    for (std::size_t cell = 0; cell < body.n_cells(); ++cell) {
+      double x = 0;
+      for (std::size_t v = 0; v < 4; ++v) x += body.nodes[body.corners[4 * cell + v]].x() / 4;
+      if (x < 200) body.region[cell] = -1;
+    }
+    test::write_mesh_scene(folder_, body);
+  }
+
   std::filesystem::path folder_, file_;
 };
 
@@ -52,15 +63,31 @@ TEST_F(MeshSceneRun, AConfinedLayerCompactsExactly) {
   }
 }
 
+/// A flow result that is even in the reservoir does what its compartment does.
+TEST_F(MeshSceneRun, AFlowResultIsMappedOntoTetrahedra) {
+  deplete_one_side();
+  std::ofstream(folder_ / "flow.csv")
+      << "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 2000-01-01 [bar], 2010-01-01 [bar]\n"
+         "100, 200, 2000, 200, 400, 200, 300, 150\n"
+         "300, 200, 2000, 200, 400, 200, 300, 150\n";
+  const std::string stages = R"([{"name": "production", "until": "2010-01-01", "steps": 2}])";
+  const CaseResult mapped =
+      Simulation::from_file(file_.string(), {{"/start_date", "2000-01-01"},
+                                             {"/stages", stages},
+                                             {"/compartments", "{}"},
+                                             {"/pressure_field", R"({"file": "flow.csv"})"}})
+          .run();
+  const CaseResult whole = Simulation::from_file(file_.string()).run();
+  ASSERT_EQ(mapped.outcome, Outcome::converged) << mapped.reason;
+  EXPECT_NEAR(mapped.field_coverage.value_or(0), 1, 1e-12);
+  const double chi = whole.steps.back().faults[0].chi_bar;
+  EXPECT_GT(chi, 0.05);
+  EXPECT_NEAR(mapped.steps.back().faults[0].chi_bar, chi, 1e-9);
+}
+
 /// Depleted on one side of fault A alone, which slides then; in whatever order faults are listed.
 TEST_F(MeshSceneRun, FaultsSlideInAnyOrder) {
-  UncutMesh body = test::meshed_cube();
-  for (std::size_t cell = 0; cell < body.n_cells(); ++cell) {
-    double x = 0;
-    for (std::size_t v = 0; v < 4; ++v) x += body.nodes[body.corners[4 * cell + v]].x() / 4;
-    if (x < 200) body.region[cell] = -1;
-  }
-  test::write_mesh_scene(folder_, body);
+  deplete_one_side();
   const Change weak{"/friction/friction_coefficient", "0.1"};
   const CaseResult one = Simulation::from_file(file_.string(), {weak}).run();
   const CaseResult other =
