@@ -211,9 +211,10 @@ void Cutter::place_copies(int node, CutNode& cut) {
 }
 
 /// How far both sides of a jump move of it, together 1. Half each; but where the jump is within one
-/// side of a fault that goes on, so that an even traction of that one does no work with the jump:
-/// each as the other's share of that fault around the node. Where several go on (a point where
-/// three meet) their areas are added up, and the jump's traction holds a part of theirs.
+/// side of a fault that goes on, so that the mean of that side over the fault's area around the
+/// node stays, and an even traction of that fault does no work with the jump. Where several go on
+/// (a point where three meet) their areas are added up, and the jump's traction holds a part of
+/// theirs.
 std::pair<double, double> Cutter::weights(const SplitNode& node, const NodeJump& jump) const {
   double below = 0, above = 0;
   for (const SectorArea& one : areas_.at(node.node)) {

@@ -1,7 +1,9 @@
 #include "simulator/plan/mesh_from_file.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/common/ranges.h"
 #include "simulator/mesh/structured_grid.h"
@@ -14,6 +16,17 @@ namespace {
 int about_split(const GmshMesh& mesh, int surface) {
   const auto n = std::ranges::count(mesh.facet_group, surface);
   return static_cast<int>(mesh.corners_per_cell == 4 ? n / 2 : n);
+}
+
+/// Turns tetrahedra that other programs number the other way round.
+void turn_inverted(UncutMesh& body) {
+  for (std::size_t first = 0; first < body.corners.size(); first += 4) {
+    const auto edge = [&](std::size_t v) -> Eigen::Vector3d {
+      return body.nodes[body.corners[first + v]] - body.nodes[body.corners[first]];
+    };
+    if (edge(1).cross(edge(2)).dot(edge(3)) < 0)
+      std::swap(body.corners[first + 2], body.corners[first + 3]);
+  }
 }
 
 }  // namespace
@@ -29,6 +42,7 @@ UncutMesh uncut_mesh(const Scene& scene) {
   body.nodes = from.nodes;
   body.shape = from.corners_per_cell == 4 ? CellShape::tetrahedron : CellShape::hexahedron;
   body.corners = from.cells;
+  if (body.shape == CellShape::tetrahedron) turn_inverted(body);
   const std::vector<std::string> compartments = region_names(scene);
   for (const int group : from.cell_group) {
     const MeshVolume& volume = file.volumes[group];

@@ -12,11 +12,15 @@
 
 namespace faultsim::test {
 
-/// The body of a mesh of hexahedra before its faults were cut, each cell as six tetrahedra around
-/// its diagonal. Boundary groups are the sides. Ties are left out.
+/// The body of a mesh of hexahedra before its faults were cut, each cell as six tetrahedra around a
+/// diagonal: that from the lowest to the highest corner, or the one mirrored in x. Boundary groups
+/// are the sides. Ties are left out.
 class InTetrahedra {
  public:
-  explicit InTetrahedra(const Mesh& mesh) : mesh_(mesh) { merge_copies(); }
+  explicit InTetrahedra(const Mesh& mesh, bool is_mirrored = false)
+      : mesh_(mesh), is_mirrored_(is_mirrored) {
+    merge_copies();
+  }
 
   UncutMesh body() {
     for (const std::vector<int>& path : paths())
@@ -48,8 +52,10 @@ class InTetrahedra {
     }
   }
 
-  /// From corner 0 of a hexahedron to corner 6, along each order of its axes.
-  static std::vector<std::vector<int>> paths() {
+  /// From one corner of a hexahedron to the opposite one, along each order of its axes.
+  std::vector<std::vector<int>> paths() const {
+    if (is_mirrored_)
+      return {{1, 0, 3, 7}, {1, 0, 4, 7}, {1, 2, 3, 7}, {1, 2, 6, 7}, {1, 5, 4, 7}, {1, 5, 6, 7}};
     return {{0, 1, 2, 6}, {0, 1, 5, 6}, {0, 3, 2, 6}, {0, 3, 7, 6}, {0, 4, 5, 6}, {0, 4, 7, 6}};
   }
 
@@ -89,6 +95,7 @@ class InTetrahedra {
   }
 
   const Mesh& mesh_;
+  bool is_mirrored_;
   std::vector<int> merged_;
   UncutMesh body_;
 };

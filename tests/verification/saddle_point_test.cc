@@ -6,11 +6,15 @@
 #include <Eigen/Sparse>
 #include <Eigen/SparseLU>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "simulator/condensation/condensation.h"
 #include "simulator/contact/contact.h"
 #include "simulator/mesh/mesh_spec.h"
+#include "tests/unit/mesh/cut_body.h"
 
 namespace faultsim {
 namespace {
@@ -59,11 +63,30 @@ BulkProblem make_problem() {
 const std::vector<std::vector<double>> kSteps = {
     {-10e6, 0, 0}, {-10e6, 0.03, 3e6}, {-10e6, 0.05, 9.0e6}, {-4e6, 0.01, 4e6}};
 
-/// The full system. Unknowns z = (x, t'): displacements of both sides and effective tractions.
+/// A linear form of displacements: Σ factor u of mesh nodes.
+using Form = std::vector<std::pair<int, double>>;
+
+/// What jumps, by fault node, and what must vanish.
+struct Kinematics {
+  std::vector<Form> jumps;
+  std::vector<Form> ties;
+};
+
+/// Two copies of each node, whose difference is the jump.
+Kinematics of_pairs(const Mesh& mesh) {
+  Kinematics kinematics;
+  for (const FaultSurface& fault : mesh.faults)
+    for (const FaultNode& node : fault.nodes)
+      kinematics.jumps.push_back({{node.plus_node, 1}, {node.minus_node, -1}});
+  return kinematics;
+}
+
+/// The full system. Unknowns z = (x, t', λ): displacements of all copies of nodes, effective
+/// tractions, and what holds the ties.
 class SaddlePoint {
  public:
-  explicit SaddlePoint(const BulkProblem& problem)
-      : faults_(problem.mesh.faults), mesh_(problem.mesh) {
+  SaddlePoint(const BulkProblem& problem, const Kinematics& kinematics)
+      : kinematics_(kinematics), faults_(problem.mesh.faults), mesh_(problem.mesh) {
     mesh_.faults.clear();
     mesh_.copies.clear();  // both copies of a node are then ordinary, independent nodes
     dofs_.emplace(mesh_, problem.conditions, static_cast<int>(problem.loads.size()));
@@ -78,19 +101,22 @@ class SaddlePoint {
                                            problem.mean_dilatation));
       }
     }
-    for (const FaultNode& node : faults_.front().nodes) nodes_.push_back(&node);
+    for (const FaultSurface& fault : faults_)
+      for (const FaultNode& node : fault.nodes) nodes_.push_back(&node);
     n_ = dofs_->n_unknowns();
-    z_ = Eigen::VectorXd::Zero(n_ + 3 * static_cast<int>(nodes_.size()));
-    previous_ = Eigen::VectorXd::Zero(3 * static_cast<int>(nodes_.size()));
+    n_traction_ = 3 * static_cast<int>(nodes_.size());
     build_jump();
+    build_ties();
+    z_ = Eigen::VectorXd::Zero(n_ + n_traction_ + ties_.rows());
+    previous_ = Eigen::VectorXd::Zero(n_traction_);
   }
 
   Eigen::VectorXd jump() const { return jump_ * z_.head(n_); }
-  Eigen::VectorXd traction() const { return z_.tail(z_.size() - n_); }
+  Eigen::VectorXd traction() const { return z_.segment(n_, n_traction_); }
 
   /// One load step; returns the number of Newton iterations, −1 if it did not converge.
   int solve_step(const std::vector<double>& factors, const Eigen::VectorXd& initial) {
-    if (traction().isZero()) z_.tail(initial.size()) = initial;
+    if (traction().isZero()) z_.segment(n_, n_traction_) = initial;
     Eigen::VectorXd force = Eigen::VectorXd::Zero(n_);
     for (std::size_t k = 0; k < factors.size(); ++k) force += factors[k] * loads_[k];
     for (int iteration = 0; iteration < 80; ++iteration) {
@@ -98,6 +124,7 @@ class SaddlePoint {
       residual_.setZero(z_.size());
       augmentation_ = kAugmentations[(iteration / 10) % 4];
       bulk_rows(force, initial);
+      tie_rows();
       for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) contact_rows(k);
       // Rows in N over K's scale and in Pa over MPa: the update decides.
       Eigen::SparseMatrix<double> matrix(z_.size(), z_.size());
@@ -107,7 +134,7 @@ class SaddlePoint {
       const Eigen::VectorXd update = lu.solve(residual_);
       z_ -= update;
       const double du = update.head(n_).cwiseAbs().maxCoeff();
-      const double dt = update.tail(z_.size() - n_).cwiseAbs().maxCoeff();
+      const double dt = update.segment(n_, n_traction_).cwiseAbs().maxCoeff();
       if (du < 1e-12 && dt < 1e-3) {  // of 0.05 m and 10 MPa
         previous_ = jump();
         return iteration + 1;
@@ -127,17 +154,43 @@ class SaddlePoint {
                                         nodes_[static_cast<std::size_t>(k)]->dip};
       for (int c = 0; c < 3; ++c) {
         for (int i = 0; i < 3; ++i) {
-          for (const int sign : {1, -1}) {
-            const FaultNode& node = *nodes_[static_cast<std::size_t>(k)];
-            for (const auto& term : dofs_->terms(sign > 0 ? node.plus_node : node.minus_node, i)) {
-              entries.emplace_back(3 * k + c, term.unknown, sign * frame[c][i] * term.coefficient);
-            }
+          for (const auto& [node, factor] : kinematics_.jumps[static_cast<std::size_t>(k)]) {
+            for (const auto& term : dofs_->terms(node, i))
+              entries.emplace_back(3 * k + c, term.unknown,
+                                   factor * frame[c][i] * term.coefficient);
           }
         }
       }
     }
-    jump_.resize(3 * static_cast<int>(nodes_.size()), n_);
+    jump_.resize(n_traction_, n_);
     jump_.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  void build_ties() {
+    std::vector<Eigen::Triplet<double>> entries;
+    int row = 0;
+    for (const Form& tie : kinematics_.ties) {
+      for (int i = 0; i < 3; ++i, ++row) {
+        for (const auto& [node, factor] : tie) {
+          for (const auto& term : dofs_->terms(node, i))
+            entries.emplace_back(row, term.unknown, kTieScale * factor * term.coefficient);
+        }
+      }
+    }
+    ties_.resize(row, n_);
+    ties_.setFromTriplets(entries.begin(), entries.end());
+  }
+
+  void tie_rows() {
+    const int first = n_ + n_traction_;
+    residual_.tail(ties_.rows()) = ties_ * z_.head(n_);
+    residual_.head(n_) += ties_.transpose() * z_.tail(ties_.rows());
+    for (int row = 0; row < ties_.outerSize(); ++row) {
+      for (JumpIterator it(ties_, row); it; ++it) {
+        triplets_.emplace_back(first + row, static_cast<int>(it.col()), it.value());
+        triplets_.emplace_back(static_cast<int>(it.col()), first + row, it.value());
+      }
+    }
   }
 
   void bulk_rows(const Eigen::VectorXd& force, const Eigen::VectorXd& initial) {
@@ -203,21 +256,23 @@ class SaddlePoint {
     }
   }
 
+  static constexpr double kTieScale = 1e9;  // N/m, of K's entries
+  Kinematics kinematics_;
   std::vector<FaultSurface> faults_;
   Mesh mesh_;
   std::optional<DofMap> dofs_;
   SparseMatrix stiffness_;
   std::vector<Eigen::VectorXd> loads_;
   std::vector<const FaultNode*> nodes_;
-  Eigen::SparseMatrix<double, Eigen::RowMajor> jump_;
+  Eigen::SparseMatrix<double, Eigen::RowMajor> jump_, ties_;
   Eigen::VectorXd z_, residual_, previous_;
   std::vector<Eigen::Triplet<double>> triplets_;
   double augmentation_ = 0;
-  int n_ = 0;
+  int n_ = 0, n_traction_ = 0;
 };
 
-TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
-  const BulkProblem problem = make_problem();
+void expect_equal(const BulkProblem& problem, const Kinematics& kinematics,
+                  const std::vector<std::vector<double>>& load_steps) {
   SilentMonitor monitor;
   CondensedBulk bulk(problem, monitor);
   const FaultOperator op = bulk.condense();
@@ -228,7 +283,8 @@ TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
   Eigen::VectorXd initial(3 * n_nodes);  // compression that grows with depth, with some shear
   for (int k = 0; k < n_nodes; ++k) {
     const double depth = -op.geometry.nodes[static_cast<std::size_t>(k)].position.z();
-    initial.segment<3>(3 * k) = (0.5e6 + 3e4 * (depth - 70)) * Eigen::Vector3d(-1, 0.05, 0.2);
+    initial.segment<3>(3 * k) =
+        (0.5e6 + 3e4 * std::max(depth - 70, 0.0)) * Eigen::Vector3d(-1, 0.05, 0.2);
   }
   std::vector<int> dofs;  // of the operator, node by node as the reference counts
   for (const auto& node : op.geometry.nodes)
@@ -244,14 +300,14 @@ TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
   options.traction_tolerance = 1e-11;
   ContactSolver solver(op, laws, options);
   ContactState state = initial_state(op);
-  SaddlePoint reference(problem);
+  SaddlePoint reference(problem, kinematics);
 
   Eigen::VectorXd before = Eigen::VectorXd::Zero(3 * n_nodes);
   bool seen[3] = {false, false, false};
   bool seen_together = false;
   ASSERT_EQ(solver.solve_step(before, locked, state).outcome, Outcome::converged);
   before = locked;
-  for (const std::vector<double>& factors : kSteps) {
+  for (const std::vector<double>& factors : load_steps) {
     Eigen::VectorXd after = locked;
     for (int k = 0; k < 3; ++k)
       after += factors[static_cast<std::size_t>(k)] * op.loads.traction.col(k);
@@ -272,6 +328,136 @@ TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
   }
   EXPECT_TRUE(seen[0] && seen[1] && seen[2]);
   EXPECT_TRUE(seen_together) << "no step has stick, slip and open nodes at once";
+}
+
+TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
+  const BulkProblem problem = make_problem();
+  expect_equal(problem, of_pairs(problem.mesh), kSteps);
+}
+
+/// A cube of tetrahedra that a fault A cuts from the top down, and a fault B that ends at A; on
+/// both sides of B the rock loses pressure unevenly, its side is pulled and pushed along.
+BulkProblem make_junction() {
+  constexpr int kCubes = 4;
+  const auto below_rim = [](const Eigen::Vector3d& x) { return x.z() > 1; };
+  UncutMesh body = test::body_of(
+      test::made_of(kCubes, 3), kCubes,
+      {{"A", {1, 0, 0}, 2, below_rim},
+       {"B", {0, 1, 0}, 2, [=](const Eigen::Vector3d& x) { return below_rim(x) && x.x() > 2; }}});
+  test::distort(body, kCubes, 0.12);
+  for (std::size_t cell = 0; cell < body.n_cells(); ++cell) {
+    const Eigen::Vector3d& x = body.nodes[static_cast<std::size_t>(body.corners[4 * cell])];
+    const bool inside = x.x() >= 2 && x.y() >= 2 && x.z() >= 1;
+    body.region[cell] = inside ? 0 : -1;
+    body.region_fraction[cell] = inside ? 1 : 0;
+  }
+  for (Eigen::Vector3d& x : body.nodes) x = 100 * x - Eigen::Vector3d(0, 0, 400);
+  BulkProblem problem;
+  problem.mesh = cut(body, "");
+  problem.materials = {{12e9, 0.2}};
+  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d none = Eigen::Matrix3d::Zero(), pull = none, shear = none;
+  pull(0, 0) = 1;
+  shear(0, 1) = shear(1, 0) = 1;
+  problem.conditions = {{Side::z_min, {true, true, true}, zero, none, -1}};
+  LoadCase pressure, sideways, tension;
+  pressure.region = 0;
+  sideways.stress_groups = {Side::x_max};
+  sideways.stress = shear;
+  tension.stress_groups = {Side::x_max};
+  tension.stress = pull;
+  problem.loads = {pressure, sideways, tension};
+  return problem;
+}
+
+/// By what cells have which copies and where they lie: nothing of the mesh's own shares.
+class FromCells {
+ public:
+  explicit FromCells(const Mesh& mesh) : mesh_(mesh) {
+    for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+      Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      for (const int node : mesh.cells.corners(cell)) centre += at(node) / 4;
+      for (const int node : mesh.cells[cell]) {
+        copies_[key(at(node))].insert(node);
+        centre_[node] = centre;
+      }
+    }
+  }
+
+  Kinematics kinematics() const {
+    Kinematics all;
+    for (std::size_t f = 0; f < 2; ++f)
+      for (const FaultNode& node : mesh_.faults[f].nodes) all.jumps.push_back(jump(f, node));
+    std::set<int> tied;
+    for (std::size_t cell = 0; cell < mesh_.cells.size(); ++cell)
+      for (std::size_t side = 0; side < 6; ++side) add_tie(cell, side, tied, all.ties);
+    return all;
+  }
+
+ private:
+  using Key = std::tuple<double, double, double>;
+  const Eigen::Vector3d& at(int node) const { return mesh_.nodes[static_cast<std::size_t>(node)]; }
+  static Key key(const Eigen::Vector3d& x) { return {x.x(), x.y(), x.z()}; }
+  bool beyond_a(int copy) const { return centre_.at(copy).x() > at(copy).x(); }
+  bool beyond_b(int copy) const { return centre_.at(copy).y() > at(copy).y(); }
+
+  /// A jumps by the mean over its area beyond it less what is before it; B between its sides.
+  Form jump(std::size_t fault, const FaultNode& node) const {
+    const std::set<int>& copies = copies_.at(key(at(node.minus_node)));
+    double area[2] = {0, 0};  // of A's triangles at smaller and at larger y
+    for (const FaultFace& face : mesh_.faults[0].faces) {
+      double y = 0;
+      bool touches = false;
+      for (std::size_t v = 0; v < 3; ++v) {
+        const Eigen::Vector3d& x = mesh_.faults[0].points[static_cast<std::size_t>(face.points[v])];
+        y += x.y() / 3;
+        touches = touches || x == at(node.minus_node);
+      }
+      if (touches) area[y > at(node.minus_node).y()] += face.area;
+    }
+    Form form;
+    for (const int copy : copies) {
+      const bool is_split_by_b = copies.size() == 3;
+      if (fault == 1) {
+        if (is_split_by_b && !beyond_a(copy)) continue;
+        form.emplace_back(copy, beyond_b(copy) ? 1 : -1);
+      } else if (!beyond_a(copy)) {
+        form.emplace_back(copy, -1);
+      } else {
+        form.emplace_back(copy, is_split_by_b ? area[beyond_b(copy)] / (area[0] + area[1]) : 1);
+      }
+    }
+    return form;
+  }
+
+  /// A copy of a middle differs from the first one as the ends that its cell has differ on average.
+  void add_tie(std::size_t cell, std::size_t side, std::set<int>& tied,
+               std::vector<Form>& ties) const {
+    const auto nodes = mesh_.cells[cell];
+    const int middle = nodes[4 + side], first = *copies_.at(key(at(middle))).begin();
+    if (middle == first || !tied.insert(middle).second) return;
+    Form form = {{middle, 1}, {first, -1}};
+    for (std::size_t other = 0; other < mesh_.cells.size(); ++other) {
+      const auto theirs = mesh_.cells[other];
+      for (std::size_t k = 0; k < 6; ++k) {
+        if (theirs[4 + k] != first) continue;
+        for (const std::size_t end : kTetrahedronSides[k]) form.emplace_back(theirs[end], 0.5);
+        for (const std::size_t end : kTetrahedronSides[side]) form.emplace_back(nodes[end], -0.5);
+        ties.push_back(form);
+        return;
+      }
+    }
+  }
+
+  const Mesh& mesh_;
+  std::map<Key, std::set<int>> copies_;
+  std::map<int, Eigen::Vector3d> centre_;  // of a cell that has the copy
+};
+
+TEST(SaddlePoint, EqualsTheCondensedPathOnTetrahedraWithAJunction) {
+  const BulkProblem problem = make_junction();
+  expect_equal(problem, FromCells(problem.mesh).kinematics(),
+               {{-10e6, 0, 0}, {-10e6, 2e6, 2e6}, {-10e6, 4e6, 6e6}, {-4e6, 1e6, 3e6}});
 }
 
 }  // namespace
