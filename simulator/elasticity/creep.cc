@@ -67,7 +67,8 @@ CreepCells::CreepCells(const Mesh& mesh, const std::vector<ElasticMaterial>& mat
 
 CreepStress CreepCells::at_rest() const {
   const Eigen::Index rows =
-      6 * (mesh_.cells.shape() == CellShape::hexahedron ? Element::kPoints : Tetrahedron::kPoints);
+      Eigen::Index{6} *
+      (mesh_.cells.shape() == CellShape::hexahedron ? Element::kPoints : Tetrahedron::kPoints);
   return {Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(cells_.size())),
           Eigen::MatrixXd::Zero(dofs_.n_unknowns(), static_cast<Eigen::Index>(materials_.size()))};
 }

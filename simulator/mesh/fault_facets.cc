@@ -42,9 +42,9 @@ class Orienter {
   void run(const std::string& name, std::vector<Problem>& problems) {
     for (std::size_t first = 0; first < edges_.size();) {
       std::size_t last = first;
-      while (last < edges_.size() && edges_[last].ends == edges_[first].ends) ++last;
+      while (last < edges_.size() && edges_[last].first == edges_[first].first) ++last;
       if (last - first > 2) {
-        branching_.add({edges_[first].ends.first, edges_[first].ends.second, -1, -1});
+        branching_.add({edges_[first].first.first, edges_[first].first.second, -1, -1});
       }
       first = last;
     }
@@ -55,11 +55,7 @@ class Orienter {
   }
 
  private:
-  struct Edge {
-    std::pair<int, int> ends;
-    int facet;
-    auto operator<=>(const Edge&) const = default;
-  };
+  using Edge = std::pair<std::pair<int, int>, int>;  ///< its ends, and a facet at it.
 
   void turn(FaultFacet& facet) {
     const CellFace& face = faces_.faces[facet.face];
@@ -100,16 +96,16 @@ class Orienter {
 
   void visit(int facet, const std::pair<int, int>& ends, std::vector<int>& part) {
     auto edge = std::ranges::lower_bound(edges_, Edge{ends, -1});
-    for (; edge != edges_.end() && edge->ends == ends; ++edge) {
-      if (edge->facet == facet) continue;
-      const bool alike = ascends(facet, ends) != ascends(edge->facet, ends);
-      if (done_[edge->facet]) {
+    for (; edge != edges_.end() && edge->first == ends; ++edge) {
+      if (edge->second == facet) continue;
+      const bool alike = ascends(facet, ends) != ascends(edge->second, ends);
+      if (done_[edge->second]) {
         if (!alike) turning_.add(facets_[facet].corners);
         continue;
       }
-      if (!alike) turn(facets_[edge->facet]);
-      done_[edge->facet] = true;
-      part.push_back(edge->facet);
+      if (!alike) turn(facets_[edge->second]);
+      done_[edge->second] = true;
+      part.push_back(edge->second);
     }
   }
 
