@@ -98,7 +98,9 @@ ScaleLook scale_look(const figure::Section::Painted& painted) {
 
 std::string draw_section(const Chosen& chosen) {
   if (chosen.scene().geometry_kind != GeometryKind::field) {
-    refuse("chart", "a section is drawn of a field, and this scene is a box",
+    refuse("chart",
+           concat("a section is drawn of a field, and this scene is a ",
+                  is_meshed(chosen.scene()) ? "mesh" : "box"),
            "choose another chart: history, profiles, fault-map");
   }
   figure::Section section = field_section(chosen.scene());

@@ -21,10 +21,11 @@ struct NodeJump {
 };
 
 /// A node that faults cut into copies: one for each part of the rock around it that they leave
-/// connected (a sector). Copy s moves with u_s = ū + Σ ±½ g_j: + where jump j has s on its plus
-/// side, − where on its minus side. Jumps are one fewer than copies, so that (ū, g) ↔ (u_s) is a
-/// bijection: where faults meet, the jump of one that goes on is between whole sides of it, that of
-/// one that ends there or crosses is within a side.
+/// connected (a sector). Copy s moves with u_s = ū + Σ w_sj g_j: w_sj > 0 where jump j has s on its
+/// plus side, < 0 where on its minus side; both sides together move of it by 1 (NodeCopy). Jumps
+/// are one fewer than copies, so that (ū, g) ↔ (u_s) is a bijection: where faults meet, the jump of
+/// one that goes on is between whole sides of it, that of one that ends there or crosses is within
+/// a side.
 struct SplitNode {
   int node;
   std::vector<std::vector<int>> sectors;  ///< cells, ascending; the first has the lowest of all.

@@ -11,6 +11,7 @@
 
 #include "simulator/condensation/condensation.h"
 #include "simulator/elasticity/element.h"
+#include "tests/verification/depletion.h"
 #include "tests/verification/grid_body.h"
 
 namespace faultsim {
@@ -60,15 +61,7 @@ BulkProblem salt_problem(double h, bool mean_dilatation) {
   problem.mesh = cut(grid.body, "");
   problem.materials = {kRock, kSalt};
   problem.mean_dilatation = mean_dilatation;
-  for (const Side side : {Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min}) {
-    std::array<bool, 3> held = {false, false, false};
-    held[static_cast<std::size_t>(side) / 2] = true;
-    problem.conditions.push_back({side, held, Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1});
-  }
-  LoadCase load;
-  load.key = {LoadKey::Kind::pressure, 0, 0};
-  load.region = 0;
-  problem.loads = {load};
+  test::deplete(problem);
   return problem;
 }
 

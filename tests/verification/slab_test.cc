@@ -10,6 +10,7 @@
 
 #include "simulator/condensation/condensation.h"
 #include "tests/verification/closed_forms/elastic_solutions.h"
+#include "tests/verification/depletion.h"
 #include "tests/verification/grid_body.h"
 
 namespace faultsim {
@@ -79,15 +80,7 @@ BulkProblem slab(double h, double width, bool mean_dilatation) {
   problem.mesh = cut(grid.body, "");
   problem.materials = {kRock};
   problem.mean_dilatation = mean_dilatation;
-  for (const Side side : {Side::x_min, Side::x_max, Side::y_min, Side::y_max, Side::z_min}) {
-    std::array<bool, 3> held = {false, false, false};
-    held[static_cast<std::size_t>(side) / 2] = true;
-    problem.conditions.push_back({side, held, Vector3d::Zero(), Eigen::Matrix3d::Zero(), -1});
-  }
-  LoadCase load;
-  load.key = {LoadKey::Kind::pressure, 0, 0};
-  load.region = 0;
-  problem.loads = {load};
+  test::deplete(problem);
   return problem;
 }
 

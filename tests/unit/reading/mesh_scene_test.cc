@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "simulator/reading/read_scene.h"
+#include "tests/unit/files/scratch_folder.h"
 
 /// Scenes whose body is a mesh from a file.
 namespace faultsim {
@@ -16,13 +17,6 @@ using testing::HasSubstr;
 
 class MeshScene : public testing::Test {
  protected:
-  MeshScene() {
-    std::string name = (std::filesystem::temp_directory_path() / "mesh_scene_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    file_ = test::write_mesh_scene(folder_);
-  }
-  ~MeshScene() override { std::filesystem::remove_all(folder_); }
-
   Scene read(const std::vector<std::pair<std::string, std::string>>& changes = {}) const {
     JsonDocument document = read_json_file(file_.string());
     for (const auto& [pointer, value] : changes) set_value(document, pointer, value);
@@ -41,7 +35,9 @@ class MeshScene : public testing::Test {
     return "";
   }
 
-  std::filesystem::path folder_, file_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
+  const std::filesystem::path file_ = test::write_mesh_scene(folder_);
 };
 
 TEST_F(MeshScene, SaysWhatAMeshIs) {

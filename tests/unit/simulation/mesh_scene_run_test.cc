@@ -5,6 +5,7 @@
 #include "simulator/reading/read_scene.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
+#include "tests/unit/files/scratch_folder.h"
 #include "tests/unit/mesh/mesh_scene.h"
 
 /// Scenes whose body is a mesh from a file, from the scene to its result.
@@ -13,13 +14,6 @@ namespace {
 
 class MeshSceneRun : public testing::Test {
  protected:
-  MeshSceneRun() {
-    std::string name = (std::filesystem::temp_directory_path() / "mesh_run_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-    file_ = test::write_mesh_scene(folder_);
-  }
-  ~MeshSceneRun() override { std::filesystem::remove_all(folder_); }
-
   /// Leaves the reservoir on one side of fault A alone. @param turned  each so many cells are
   /// numbered the other way round; 0 = none.
   void deplete_one_side(std::size_t turned = 0) const {
@@ -34,7 +28,9 @@ class MeshSceneRun : public testing::Test {
     test::write_mesh_scene(folder_, body);
   }
 
-  std::filesystem::path folder_, file_;
+  const ScratchFolder scratch_;
+  const std::filesystem::path folder_ = scratch_.path();
+  const std::filesystem::path file_ = test::write_mesh_scene(folder_);
 };
 
 /// A confined layer that is depleted by Δp: the horizontal stress rises by γ_h |Δp|, γ_h = (1 −
