@@ -123,8 +123,7 @@ void CondensedBulk::Impl::factorise(const RunContext& context) {
       .progress = [&](double done) { context.progress(kBegin + (kEnd - kBegin) * done, what); },
       .stop = [&] { return context.stop.requested(); },
       .analysis = context.analysis};
-  factor =
-      std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_group(), dofs.n_groups(), run);
+  factor = std::make_unique<TrailingCholesky>(k, dofs.n_jump(), dofs.bulk_groups(), run);
   if (factor->failed_column() >= 0) throw_not_held(problem, dofs, factor->failed_column());
   context.stop.throw_if_requested("condensing the bulk");
 }

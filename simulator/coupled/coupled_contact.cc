@@ -21,6 +21,17 @@ void set_shear(const std::array<int, 2>& dof, const Eigen::Vector2d& value,
   }
 }
 
+/// H_dd/A of the commutator's approximation, (CᵀKC)_dd A/(CᵀC)²: any positive number would do.
+double stiffness_of(const TwoSidedNode& node, int c, const Eigen::VectorXd& diagonal) {
+  double stiffness = 0, gram = 0;
+  for (const JumpTerm& term : node.terms) {
+    const double square = term.factor * term.factor;
+    gram += square;
+    if (term.dof[c] >= 0) stiffness += square * diagonal[term.dof[c]];
+  }
+  return stiffness / (gram * gram * node.area);
+}
+
 int count(const std::vector<FaultState>& states, FaultState state) {
   return static_cast<int>(std::ranges::count(states, state));
 }
@@ -53,12 +64,8 @@ CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws
     for (int c = 0; c < 3; ++c)
       if (two.may_jump(c)) dof_.push_back(two.jump[c]);
     inverse_area_.segment(node.first, node.n_dofs).setConstant(1 / two.area);
-    // H_dd/A of the commutator's approximation, (CᵀKC)_dd A/(CᵀC)²: any positive number would do.
-    for (int c = 0; c < 3; ++c) {
-      const double plus = two.plus[c] >= 0 ? diagonal[two.plus[c]] : 0;
-      const double minus = two.minus[c] >= 0 ? diagonal[two.minus[c]] : 0;
-      node.stiffness = std::max(node.stiffness, (plus + minus) / (4 * two.area));
-    }
+    for (int c = 0; c < 3; ++c)
+      node.stiffness = std::max(node.stiffness, stiffness_of(two, c, diagonal));
     nodes_.push_back(node);
   }
   FAULTSIM_DEMAND(laws.size() == nodes_.size(), "laws for ", laws.size(), " of ", nodes_.size(),

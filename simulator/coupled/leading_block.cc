@@ -15,10 +15,10 @@ namespace {
 using Eigen::VectorXd;
 
 /// Three unknowns make a node, as nearly always here; what is left is a group of its own.
-std::vector<int> groups_of_three(int n) {
-  std::vector<int> group(n);
-  for (int i = 0; i < n; ++i) group[i] = i / 3;
-  return group;
+UnknownGroups groups_of_three(int n) {
+  UnknownGroups groups{std::vector<int>(n), (n + 2) / 3};
+  for (int i = 0; i < n; ++i) groups.of[i] = i / 3;
+  return groups;
 }
 
 LinearMap fsai_block(const SparseMatrix& a, const FsaiOptions& options) {
@@ -41,8 +41,7 @@ LinearMap direct_solver(const SparseMatrix& a, bool symmetric) {
   if (symmetric) {
     SparseMatrix lower = a.triangularView<Eigen::Lower>();
     lower.makeCompressed();
-    const auto factor =
-        std::make_shared<TrailingCholesky>(lower, 0, groups_of_three(n), (n + 2) / 3);
+    const auto factor = std::make_shared<TrailingCholesky>(lower, 0, groups_of_three(n));
     if (factor->failed_column() < 0)
       return [factor](const VectorXd& r, VectorXd& z) { z = factor->solve(r); };
   }

@@ -7,14 +7,14 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double, long>>;
 
-/// Column c of A_k R_k [I, −I]ᵀ as (dof, value).
+/// Column c of A_k times the displacements' factors in the jump, as (dof, value).
 std::vector<std::pair<int, double>> column_of(const TwoSidedNode& node, int c) {
   std::vector<std::pair<int, double>> column;
   for (int i = 0; i < 3; ++i) {
     const double value = node.area * node.frame(i, c);
     if (value == 0) continue;
-    if (node.plus[i] >= 0) column.emplace_back(node.plus[i], value);
-    if (node.minus[i] >= 0) column.emplace_back(node.minus[i], -value);
+    for (const JumpTerm& term : node.terms)
+      if (term.dof[i] >= 0) column.emplace_back(term.dof[i], term.factor * value);
   }
   return column;
 }

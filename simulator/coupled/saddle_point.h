@@ -20,16 +20,16 @@ struct NodeLinearisation {
 ///
 /// over displacements of both sides (n_u, m) and multipliers (n_λ, Pa): tractions of the components
 /// that are held closed. A node that sticks has its n, strike and dip, one that slips its n, an
-/// open one none. C_k = A_k R_k [I, −I]ᵀ: plus side positive, minus side negative, so that Cᵀu = A
-/// g.
+/// open one none. C_k has A_k R_k times the factors of the displacements in the jump (JumpTerm; of
+/// two copies plus side 1, minus side −1), so that Cᵀu = A g.
 ///
 /// The shear of a slipping node is t*_T(Δg_T, t'_N) instead of a multiplier. With C_T its two
-/// columns of A_k R_k [I, −I]ᵀ,
+/// columns of C_k,
 ///
 ///   E = Σ C_T ∂t*_T/∂Δg_T A⁻¹ C_Tᵀ,      F = −Σ C_T ∂t*_T/∂t'_N   in the column of its t'_N.
 struct SaddlePoint {
   SparseMatrix leading;         ///< K + E, both triangles.
-  SparseMatrix constraint;      ///< C, n_u x n_λ. CᵀC is diagonal.
+  SparseMatrix constraint;      ///< C, n_u x n_λ. CᵀC is diagonal but where faults meet.
   SparseMatrix coupling;        ///< C − F, n_u x n_λ; the same as C where nothing slips.
   std::vector<int> node_begin;  ///< multipliers of fault node k: node_begin[k] … node_begin[k+1]−1.
   bool symmetric = true;        ///< K + E = (K + E)ᵀ and F = 0.

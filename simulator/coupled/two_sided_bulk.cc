@@ -1,7 +1,6 @@
 #include "simulator/coupled/two_sided_bulk.h"
 
 #include <Eigen/QR>
-#include <numeric>
 
 #include "simulator/common/errors.h"
 #include "simulator/elasticity/held.h"
@@ -10,23 +9,12 @@
 namespace faultsim {
 namespace {
 
-/// Ties the sides of the nodes at which the condensed path allows no jump at all.
-void tie_closed_nodes(const DofMap& condensed, const std::vector<FaultSurface>& faults,
-                      Mesh& mesh) {
-  if (mesh.tied_to.empty()) {
-    mesh.tied_to.resize(mesh.nodes.size());
-    std::iota(mesh.tied_to.begin(), mesh.tied_to.end(), 0);
-  }
-  for (int f = 0; f < static_cast<int>(faults.size()); ++f) {
-    for (int k = 0; k < static_cast<int>(faults[f].nodes.size()); ++k) {
-      if (condensed.jump_dof(f, k, 0) >= 0) continue;
-      const FaultNode& node = faults[f].nodes[k];
-      const int from = mesh.tied_to[node.plus_node], to = mesh.tied_to[node.minus_node];
-      for (int& root : mesh.tied_to) {
-        if (root == from) root = to;
-      }
-    }
-  }
+[[noreturn]] void refuse_half_held(const Eigen::Vector3d& x) {
+  throw InputError("coupled path",
+                   {{"/geometry/boundary", 0,
+                     concat("at (", x.x(), ", ", x.y(), ", ", x.z(),
+                            ") m a condition holds one side of a fault and not the other"),
+                     "let it hold both sides, or take the condensed path"}});
 }
 
 }  // namespace
@@ -35,24 +23,20 @@ TwoSidedBulk::TwoSidedBulk(const BulkProblem& problem, LoosePieces loose) : prob
   const int n_loads = static_cast<int>(problem.loads.size());
   const DofMap condensed(problem.mesh, problem.conditions, n_loads);
   require_held(problem.mesh, condensed);
-  Mesh& mesh = problem_.mesh;
-  FAULTSIM_DEMAND(mesh.cells.shape() == CellShape::hexahedron, "jumps that are tied at mid-sides");
-  faults_.swap(mesh.faults);
-  mesh.copies.clear();
-  tie_closed_nodes(condensed, faults_, mesh);
-  dofs_ = std::make_unique<DofMap>(mesh, problem.conditions, n_loads);
+  copies_ = std::make_unique<FreeCopies>(
+      problem_.mesh, [&](int fault, int node) { return condensed.jump_dof(fault, node, 0) >= 0; });
+  dofs_ = std::make_unique<DofMap>(problem_.mesh, problem.conditions, n_loads);
   if (loose == LoosePieces::refused) require_pieces_held();
-  int n_independent = 0;
-  rank_.resize(mesh.nodes.size());
-  for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
-    if (mesh.tied_to[i] == i) rank_[i] = n_independent++;
+  const std::vector<int>& tied_to = problem_.mesh.tied_to;
+  int n_free = 0;
+  for (int i = 0; i < static_cast<int>(tied_to.size()); ++i) {
+    const bool is_free = tied_to[i] == i && copies_->is_free(i);
+    rank_.push_back(is_free ? n_free++ : -1);
   }
-  for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) rank_[i] = rank_[mesh.tied_to[i]];
+  find_terms(3 * n_free);
   assemble();
   place_fault_nodes(condensed);
 }
-
-int TwoSidedBulk::dof(int node, int component) const { return 3 * rank_[node] + component; }
 
 /// Every piece must be held by itself: multipliers tie pieces together only in the whole system.
 void TwoSidedBulk::require_pieces_held() const {
@@ -72,30 +56,51 @@ void TwoSidedBulk::require_pieces_held() const {
   }
 }
 
+/// Which dofs each unknown of dofs_ moves with.
+void TwoSidedBulk::find_terms(int n_u) {
+  const Mesh& mesh = problem_.mesh;
+  prescribed_.assign(n_u, 0);
+  const auto for_each_root = [&](const auto& visit) {
+    for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i)
+      for (int c = 0; c < 3 && mesh.tied_to[i] == i; ++c) visit(i, c, dofs_->terms(i, c).empty());
+  };
+  for_each_root([&](int node, int c, bool is_prescribed) {
+    if (rank_[node] >= 0) prescribed_[dof(node, c)] = is_prescribed;
+  });
+  term_begin_ = {0};
+  for_each_root([&](int node, int c, bool is_prescribed) {
+    const NodeTerms all = copies_->displacement(node);
+    const bool first_is = prescribed_[dof(all.front().node, c)] != 0;
+    if (is_prescribed != first_is) refuse_half_held(mesh.nodes[node]);
+    if (is_prescribed) return;
+    // What is prescribed at a place is so on all copies and has no part in jumps.
+    for (const NodeTerm& term : all) {
+      const int moved = dof(term.node, c);
+      if (!prescribed_[moved]) terms_.push_back({moved, term.factor});
+    }
+    term_begin_.push_back(static_cast<int>(terms_.size()));
+  });
+  FAULTSIM_DEMAND(std::ssize(term_begin_) == 1 + dofs_->n_unknowns(), term_begin_.size(), " of ",
+                  dofs_->n_unknowns());
+}
+
 /// K of the free dofs, spread over all dofs, with both triangles and identity rows.
 void TwoSidedBulk::assemble() {
-  const Mesh& mesh = problem_.mesh;
-  const int n_u = 3 * (1 + *std::ranges::max_element(rank_));
-  std::vector<int> dof_of(dofs_->n_unknowns());
-  prescribed_.assign(n_u, 1);
-  for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      for (const DofMap::Term& term : dofs_->terms(i, c)) {
-        dof_of[term.unknown] = dof(i, c);
-        prescribed_[dof(i, c)] = 0;
-      }
-    }
-  }
   const SparseMatrix lower =
-      assemble_stiffness(mesh, problem_.materials, *dofs_, problem_.mean_dilatation);
+      assemble_stiffness(problem_.mesh, problem_.materials, *dofs_, problem_.mean_dilatation);
   mean_diagonal_ = lower.diagonal().mean();
+  const int n_u = static_cast<int>(prescribed_.size());
   std::vector<Eigen::Triplet<double, long>> entries;
   entries.reserve(2 * lower.nonZeros() + n_u);
   for (int column = 0; column < lower.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator it(lower, column); it; ++it) {
-      const int i = dof_of[it.row()], j = dof_of[column];
-      entries.emplace_back(i, j, it.value());
-      if (i != j) entries.emplace_back(j, i, it.value());
+      for (const auto& [i, row_factor] : terms(static_cast<int>(it.row()))) {
+        for (const auto& [j, column_factor] : terms(column)) {
+          const double value = row_factor * column_factor * it.value();
+          entries.emplace_back(i, j, value);
+          if (it.row() != column) entries.emplace_back(j, i, value);
+        }
+      }
     }
   }
   for (int i = 0; i < n_u; ++i) {
@@ -106,17 +111,21 @@ void TwoSidedBulk::assemble() {
 }
 
 void TwoSidedBulk::place_fault_nodes(const DofMap& condensed) {
-  for (int f = 0; f < static_cast<int>(faults_.size()); ++f) {
-    for (int k = 0; k < static_cast<int>(faults_[f].nodes.size()); ++k) {
-      const FaultNode& node = faults_[f].nodes[k];
-      TwoSidedNode two{};
+  for (int f = 0; f < static_cast<int>(copies_->faults().size()); ++f) {
+    const std::vector<FaultNode>& nodes = copies_->faults()[f].nodes;
+    for (int k = 0; k < static_cast<int>(nodes.size()); ++k) {
+      const FaultNode& node = nodes[k];
+      TwoSidedNode two;
       two.frame << node.normal, node.strike, node.dip;
       two.area = node.area;
-      for (int c = 0; c < 3; ++c) {
-        two.jump[c] = condensed.jump_dof(f, k, c);
-        const int minus = dof(node.minus_node, c), plus = dof(node.plus_node, c);
-        two.minus[c] = prescribed_[minus] ? -1 : minus;
-        two.plus[c] = prescribed_[plus] ? -1 : plus;
+      for (int c = 0; c < 3; ++c) two.jump[c] = condensed.jump_dof(f, k, c);
+      for (const NodeTerm& term : copies_->jump(f, k)) {
+        JumpTerm& moved = two.terms.emplace_back();
+        moved.factor = term.factor;
+        for (int c = 0; c < 3; ++c) {
+          const int its_dof = dof(term.node, c);
+          moved.dof[c] = prescribed_[its_dof] ? -1 : its_dof;
+        }
       }
       fault_nodes_.push_back(two);
     }
@@ -126,14 +135,26 @@ void TwoSidedBulk::place_fault_nodes(const DofMap& condensed) {
 Eigen::VectorXd TwoSidedBulk::load(int k) const {
   const Eigen::VectorXd force = unit_load(problem_, *dofs_, k);
   Eigen::VectorXd f = Eigen::VectorXd::Zero(n_displacements());
-  for (int i = 0; i < static_cast<int>(problem_.mesh.nodes.size()); ++i) {
-    for (int c = 0; c < 3; ++c) {
-      const auto terms = dofs_->terms(i, c);
-      f[dof(i, c)] =
-          terms.empty() ? mean_diagonal_ * dofs_->prescribed(k, i, c) : force[terms[0].unknown];
-    }
+  for (int unknown = 0; unknown < dofs_->n_unknowns(); ++unknown) {
+    for (const auto& [i, factor] : terms(unknown)) f[i] += factor * force[unknown];
   }
+  for_each_free_node([&](int node) {
+    for (int c = 0; c < 3; ++c) {
+      const int i = dof(node, c);
+      if (prescribed_[i]) f[i] = mean_diagonal_ * dofs_->prescribed(k, node, c);
+    }
+  });
   return f;
+}
+
+Eigen::Matrix3Xd TwoSidedBulk::nodal_displacement(const Eigen::VectorXd& u) const {
+  const Mesh& mesh = problem_.mesh;
+  Eigen::Matrix3Xd all = Eigen::Matrix3Xd::Zero(3, std::ssize(mesh.nodes));
+  for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
+    for (const NodeTerm& term : copies_->displacement(mesh.tied_to[i]))
+      all.col(i) += term.factor * u.segment<3>(dof(term.node, 0));
+  }
+  return all;
 }
 
 Eigen::MatrixXd TwoSidedBulk::rigid_motions() const {
@@ -141,9 +162,8 @@ Eigen::MatrixXd TwoSidedBulk::rigid_motions() const {
   const RigidModes modes = rigid_modes(
       mesh, [](int) { return true; }, [](int, int) { return false; });
   Eigen::MatrixXd motions(n_displacements(), 6);
-  for (int i = 0; i < static_cast<int>(mesh.nodes.size()); ++i) {
-    motions.middleRows(dof(i, 0), 3) = modes.at(mesh.nodes[i]);
-  }
+  for_each_free_node(
+      [&](int node) { motions.middleRows(dof(node, 0), 3) = modes.at(mesh.nodes[node]); });
   return Eigen::HouseholderQR<Eigen::MatrixXd>(motions).householderQ() *
          Eigen::MatrixXd::Identity(n_displacements(), 6);
 }

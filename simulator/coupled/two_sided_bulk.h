@@ -3,19 +3,27 @@
 #include <Eigen/Core>
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "simulator/coupled/free_copies.h"
 #include "simulator/elasticity/bulk_problem.h"
 
 namespace faultsim {
 
-/// A duplicated node as the coupled path sees it.
+/// A displacement in a jump.
+struct JumpTerm {
+  std::array<int, 3> dof;  ///< of x, y, z; −1 = prescribed.
+  double factor;           ///< of two copies −1 on the minus side, 1 on the plus side.
+};
+
+/// A node of a fault as the coupled path sees it: R_k g_k = Σ factor u.
 struct TwoSidedNode {
-  std::array<int, 3> minus, plus;  ///< displacement dofs of x, y, z; −1 = prescribed.
-  Eigen::Matrix3d frame;           ///< R_k: columns n, strike, dip.
-  double area;                     ///< A_k, m2.
-  std::array<int, 3> jump;         ///< n, strike and dip as dofs of the operator that condensation
-                                   ///< makes; −1 = stays closed.
+  std::vector<JumpTerm> terms;  ///< of distinct nodes; none where it stays closed.
+  Eigen::Matrix3d frame;        ///< R_k: columns n, strike, dip.
+  double area;                  ///< A_k, m2.
+  std::array<int, 3> jump;      ///< n, strike and dip as dofs of the operator that condensation
+                                ///< makes; −1 = stays closed.
   bool may_jump(int c) const { return jump[c] >= 0; }
 };
 
@@ -28,7 +36,7 @@ enum class LoosePieces {
 /// The linear bulk over displacements of both sides of every fault (model section 11):
 /// K (n_u x n_u), unit loads, and where the fault nodes are in it.
 ///
-/// Dofs are 3 i + c for component c of the i-th node that is not another's copy by a tie.
+/// Dofs are 3 i + c for component c of the i-th node that moves by itself (FreeCopies).
 /// Prescribed displacements stay dofs: their rows and columns of K are those of the identity times
 /// the mean diagonal, so that every node has three dofs, which algebraic multigrid wants. Fault
 /// nodes that the condensed path keeps closed (DofMap) are tied here.
@@ -46,23 +54,43 @@ class TwoSidedBulk {
   /// prescribed displacement.
   Eigen::VectorXd load(int k) const;
   const std::vector<TwoSidedNode>& fault_nodes() const { return fault_nodes_; }
-  /// Dof of component c of a mesh node, prescribed ones included.
-  int dof(int node, int component) const;
+  /// Dof of component c of a mesh node, prescribed ones included; −1 where other nodes move it.
+  int dof(int node, int component) const {
+    const int rank = rank_[problem_.mesh.tied_to[node]];
+    return rank < 0 ? -1 : 3 * rank + component;
+  }
+  /// Of all mesh nodes, 3 x n_nodes, from the displacement dofs.
+  Eigen::Matrix3Xd nodal_displacement(const Eigen::VectorXd& u) const;
   bool is_prescribed(int dof) const { return prescribed_[dof]; }
   /// Displacements of the six rigid motions, orthonormal over all dofs, n_u x 6; prescribed dofs
   /// move with them.
   Eigen::MatrixXd rigid_motions() const;
 
  private:
-  void place_fault_nodes(const DofMap& condensed);
+  template <typename Visit>
+  void for_each_free_node(const Visit& visit) const {
+    for (int i = 0; i < static_cast<int>(rank_.size()); ++i)
+      if (rank_[i] >= 0) visit(i);
+  }
+  struct Term {
+    int dof;
+    double factor;
+  };
+  std::span<const Term> terms(int unknown) const {
+    return {terms_.data() + term_begin_[unknown], terms_.data() + term_begin_[unknown + 1]};
+  }
   void require_pieces_held() const;
+  void find_terms(int n_u);
   void assemble();
+  void place_fault_nodes(const DofMap& condensed);
 
-  BulkProblem problem_;  ///< without faults in its mesh: both copies of a node are independent.
-  std::vector<FaultSurface> faults_;
+  BulkProblem problem_;  ///< without faults in its mesh: all copies of a node are independent.
+  std::unique_ptr<FreeCopies> copies_;
   std::unique_ptr<DofMap> dofs_;
-  std::vector<int> rank_;         ///< per mesh node: place among the independent nodes.
+  std::vector<int> rank_;         ///< per mesh node: place among the free ones; −1 = none.
   std::vector<char> prescribed_;  ///< per dof.
+  std::vector<int> term_begin_;   ///< per unknown of dofs_.
+  std::vector<Term> terms_;
   SparseMatrix stiffness_;
   double mean_diagonal_ = 0;
   std::vector<TwoSidedNode> fault_nodes_;

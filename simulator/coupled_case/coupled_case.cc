@@ -194,10 +194,7 @@ SolvedStep CoupledSteps::advance(const LoadStep&, const StepLoads& loads, Contac
   state = std::move(next);
   u_ = std::move(u);
   at_ = to;
-  displacement_.resize(3, static_cast<Eigen::Index>(problem_.mesh.nodes.size()));
-  for (Eigen::Index i = 0; i < displacement_.cols(); ++i) {
-    for (int c = 0; c < 3; ++c) displacement_(c, i) = u_[bulk_.dof(static_cast<int>(i), c)];
-  }
+  displacement_ = bulk_.nodal_displacement(u_);
   return solved;
 }
 

@@ -29,6 +29,7 @@ class DofMapBuilder {
   void place_jumps();
   void number_jumps();
   void number_bulk();
+  void find_group_ends();
   void write_terms();
   void share_prescribed();
 
@@ -265,10 +266,31 @@ void DofMapBuilder::number_bulk() {
     for (std::size_t c = 0; c < 3; ++c) {
       if (fixed(node)[c]) continue;
       unknowns[c] = map_.n_bulk_++;
-      map_.bulk_group_.push_back(map_.n_groups_);
+      map_.groups_.of.push_back(map_.groups_.n);
       has_any = true;
     }
-    if (has_any) ++map_.n_groups_;
+    if (has_any) ++map_.groups_.n;
+  }
+}
+
+/// Of quadratic cells.
+void DofMapBuilder::find_group_ends() {
+  if (mesh_.cells.shape() != CellShape::tetrahedron) return;
+  const auto group_of = [&](int node) {
+    const auto& unknowns = bulk_[root(node)];
+    const auto first = std::ranges::find_if(unknowns, [](int unknown) { return unknown >= 0; });
+    return first == unknowns.end() ? -1 : map_.groups_.of[*first];
+  };
+  auto& ends = map_.groups_.ends;
+  ends.assign(map_.groups_.n, {-1, -1});
+  for (std::size_t cell = 0; cell < mesh_.cells.size(); ++cell) {
+    const std::span<const int> nodes = mesh_.cells[cell];
+    for (std::size_t side = 0; side < kTetrahedronSides.size(); ++side) {
+      const int middle = group_of(nodes[mesh_.cells.n_corners() + side]);
+      if (middle < 0) continue;
+      const auto& [a, b] = kTetrahedronSides[side];
+      ends[middle] = {group_of(nodes[a]), group_of(nodes[b])};
+    }
   }
 }
 
@@ -334,6 +356,7 @@ DofMap::DofMap(const Mesh& mesh, const std::vector<DisplacementCondition>& condi
   if (mesh.plane_strain) builder.fix_y();
   builder.place_jumps();
   builder.number_bulk();
+  builder.find_group_ends();
   builder.write_terms();
   builder.share_prescribed();
 }

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "simulator/common/unknown_groups.h"
 #include "simulator/mesh/mesh.h"
 
 namespace faultsim {
@@ -66,9 +67,8 @@ class DofMap {
   }
   const std::vector<Eigen::Vector3d>& locked_positions() const { return locked_; }
   bool pinned() const { return pinned_; }  ///< the rigid motions of the body were pinned.
-  /// Unknowns grouped by mesh node for ordering: bulk unknown → group; n_groups.
-  const std::vector<int>& bulk_group() const { return bulk_group_; }
-  int n_groups() const { return n_groups_; }
+  /// Bulk unknowns by places of mesh nodes.
+  const UnknownGroups& bulk_groups() const { return groups_; }
 
  private:
   std::vector<int> begin_;
@@ -78,8 +78,8 @@ class DofMap {
   std::vector<Eigen::Vector3d> locked_;
   std::vector<std::vector<std::pair<int, double>>>
       prescribed_;  // per load: (3 node + component, m)
-  std::vector<int> bulk_group_;
-  int n_bulk_ = 0, n_jump_ = 0, n_groups_ = 0;
+  UnknownGroups groups_;
+  int n_bulk_ = 0, n_jump_ = 0;
   bool pinned_ = false;
 
   friend class DofMapBuilder;

@@ -41,12 +41,13 @@ cholmod_sparse view_of(const TrailingCholesky::SparseMatrix& k) {
 }
 
 /// Of all that order and structure depend on.
-std::string pattern_of(const cholmod_sparse& a, const std::vector<int>& group, Index n_bulk) {
+std::string pattern_text(const cholmod_sparse& a, const UnknownGroups& groups, Index n_bulk) {
   const auto* begin = static_cast<const Index*>(a.p);
   const auto n_entries = static_cast<std::size_t>(begin[a.ncol]);
   return concat(a.ncol, ' ', n_bulk, ' ', fingerprint(begin, (a.ncol + 1) * sizeof(Index)),
                 fingerprint(a.i, n_entries * sizeof(Index)),
-                fingerprint(group.data(), group.size() * sizeof(int)));
+                fingerprint(groups.of.data(), groups.of.size() * sizeof(int)),
+                fingerprint(groups.ends.data(), groups.ends.size() * sizeof(groups.ends[0])));
 }
 
 struct FreeSparse {
@@ -101,17 +102,16 @@ struct TrailingCholesky::Impl {
   }
 
   /// Takes what is known of the pattern, or learns it.
-  void analyse(cholmod_sparse* a, const std::vector<int>& group, int n_groups,
-               const FactorRun& run) {
-    if (run.analysis == nullptr) return analyse_anew(a, group, n_groups, run);
+  void analyse(cholmod_sparse* a, const UnknownGroups& groups, const FactorRun& run) {
+    if (run.analysis == nullptr) return analyse_anew(a, groups, run);
     FactorAnalysis::Impl& known = *run.analysis->impl_;
-    const std::string pattern = pattern_of(*a, group, n_bulk);
+    const std::string pattern = pattern_text(*a, groups, n_bulk);
     if (known.pattern == pattern) {
       order = known.order;
       factor = cholmod_l_copy_factor(known.structure, common.get());
       return check("the analysis");
     }
-    analyse_anew(a, group, n_groups, run);
+    analyse_anew(a, groups, run);
     known.clear();
     known.structure = cholmod_l_copy_factor(factor, known.common.get());
     known.pattern = known.structure == nullptr ? "" : pattern;
@@ -119,9 +119,8 @@ struct TrailingCholesky::Impl {
     ++known.n_made;
   }
 
-  void analyse_anew(cholmod_sparse* a, const std::vector<int>& group, int n_groups,
-                    const FactorRun& run) {
-    order = trailing_order(*a, n_bulk, group, n_groups, common, run.stop);
+  void analyse_anew(cholmod_sparse* a, const UnknownGroups& groups, const FactorRun& run) {
+    order = trailing_order(*a, n_bulk, groups, common, run.stop);
     check("the ordering");
     cholmod_common* c = common.get();
     c->nmethods = 1;
@@ -208,11 +207,11 @@ struct TrailingCholesky::Impl {
   }
 };
 
-TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group,
-                                   int n_groups, const FactorRun& run)
+TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const UnknownGroups& groups,
+                                   const FactorRun& run)
     : impl_(std::make_unique<Impl>()) {
   FAULTSIM_DEMAND(k.rows() == k.cols() && k.rows() >= 1 && k.isCompressed(), k.rows(), k.cols());
-  FAULTSIM_DEMAND(static_cast<long>(group.size()) + n_last == k.rows(), group.size(), n_last);
+  FAULTSIM_DEMAND(std::ssize(groups.of) + n_last == k.rows(), groups.of.size(), n_last);
   Impl& self = *impl_;
   self.n = k.rows();
   self.n_bulk = self.n - n_last;
@@ -222,7 +221,7 @@ TrailingCholesky::TrailingCholesky(const SparseMatrix& k, int n_last, const std:
                     "no diagonal in column ", j);
   }
   cholmod_sparse a = view_of(k);
-  self.analyse(&a, group, n_groups, run);
+  self.analyse(&a, groups, run);
   Stopwatch factorisation;
   self.factorise(&a, run);
   self.statistics.factor_seconds = factorisation.seconds();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/unknown_groups.h"
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/factor_run.h"
 #include "simulator/linalg/sparse_forward.h"
@@ -46,13 +47,12 @@ class TrailingCholesky {
 
   /// @param k        lower triangle, n x n, n ≥ 1, compressed; kept only during the call.
   /// @param n_last   the last n_last unknowns stay last, in their order.
-  /// @param group    unknown r → group (node) in [0, n_groups) for the ordering, size n − n_last;
-  ///                 groups are ordered by METIS, as graph without the last unknowns (small graphs
-  ///                 by AMD).
+  /// @param groups   of the n − n_last unknowns before; ordered as a graph without the last ones
+  ///                 (trailing_order).
   /// Throws ResourceError when memory is short. A matrix that is not positive definite does not
   /// throw: see failed_column().
   /// Interrupted when `run` says so.
-  TrailingCholesky(const SparseMatrix& k, int n_last, const std::vector<int>& group, int n_groups,
+  TrailingCholesky(const SparseMatrix& k, int n_last, const UnknownGroups& groups,
                    const FactorRun& run = {});
   ~TrailingCholesky();
   TrailingCholesky(const TrailingCholesky&) = delete;

@@ -3,6 +3,7 @@
 #include <metis.h>
 
 #include <array>
+#include <bit>
 #include <chrono>
 #include <csignal>
 #include <limits>
@@ -96,12 +97,29 @@ Adjacency adjacency(const GroupGraph& graph) {
   return full;
 }
 
+bool is_countable(const GroupGraph& graph) {
+  return 2 * graph.rows.size() <= static_cast<std::size_t>(std::numeric_limits<idx_t>::max());
+}
+
+/// Sizes of the sets below a separator and its own, in the order of elimination. METIS lists them
+/// by levels, domains first, from left to right: the two halves of the k-th of a level are the
+/// 2k-th and the next of the level before.
+void append_sizes(const std::vector<idx_t>& by_level, std::size_t level_begin,
+                  std::size_t level_size, std::size_t k, std::vector<idx_t>& sizes) {
+  const std::size_t below_size = 2 * level_size;
+  if (below_size <= (by_level.size() + 1) / 2) {
+    const std::size_t below = level_begin - below_size;
+    append_sizes(by_level, below, below_size, 2 * k, sizes);
+    append_sizes(by_level, below, below_size, 2 * k + 1, sizes);
+  }
+  sizes.push_back(by_level[level_begin + k]);
+}
+
 }  // namespace
 
 std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph,
                                                     const std::function<bool()>& stop) {
-  if (2 * graph.rows.size() > static_cast<std::size_t>(std::numeric_limits<idx_t>::max()))
-    return {};
+  if (!is_countable(graph)) return {};
   Adjacency full = adjacency(graph);
   idx_t n = static_cast<idx_t>(full.begin.size()) - 1;
   std::vector<idx_t> order(n), place(n);
@@ -120,6 +138,32 @@ std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph,
     FAULTSIM_DEMAND(done == METIS_ERROR, "METIS_NodeND returns ", done);
     std::raise(SIGTERM);
   }
+}
+
+std::optional<std::vector<int>> dissected_sets(const GroupGraph& graph, int n_domains,
+                                               const std::function<bool()>& stop) {
+  FAULTSIM_DEMAND(n_domains >= 2 && std::has_single_bit(static_cast<unsigned>(n_domains)),
+                  n_domains, " domains");
+  if (!is_countable(graph)) return {};
+  Adjacency full = adjacency(graph);
+  const auto n = static_cast<idx_t>(full.begin.size()) - 1;
+  std::vector<idx_t> order(n), place(n), by_level(2 * n_domains - 1), options(METIS_NOPTIONS);
+  METIS_SetDefaultOptions(options.data());
+  const std::unique_lock turn = wait_for_turn(stop);
+  require_no_stop(stop);
+  const int done = METIS_NodeNDP(n, full.begin.data(), full.neighbours.data(), nullptr, n_domains,
+                                 options.data(), order.data(), place.data(), by_level.data());
+  require_no_stop(stop);
+  if (done != METIS_OK) return {};
+  std::vector<idx_t> sizes;
+  append_sizes(by_level, by_level.size() - 1, 1, 0, sizes);
+  std::vector<int> set_at;  // a place
+  for (std::size_t s = 0; s < sizes.size(); ++s)
+    set_at.insert(set_at.end(), sizes[s], static_cast<int>(s));
+  if (std::ssize(set_at) != n) return {};
+  std::vector<int> sets(n);
+  for (idx_t v = 0; v < n; ++v) sets[v] = set_at[place[v]];
+  return sets;
 }
 
 }  // namespace faultsim

@@ -22,4 +22,11 @@ struct GroupGraph {
 std::optional<std::vector<long>> nested_dissection(const GroupGraph& graph,
                                                    const std::function<bool()>& stop = nullptr);
 
+/// Domains and separators of nested dissection (METIS_NodeNDP with its default options) down to
+/// `n_domains`, a power of 2: of each vertex the number of its set. Sets are numbered from 0 on in
+/// the order of elimination, both halves before the separator between them.
+/// Nothing where the graph falls apart before it has as many, or as above.
+std::optional<std::vector<int>> dissected_sets(const GroupGraph& graph, int n_domains,
+                                               const std::function<bool()>& stop = nullptr);
+
 }  // namespace faultsim

@@ -5,6 +5,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
+#include "simulator/linalg/corner_dissection.h"
 #include "simulator/linalg/nested_dissection.h"
 
 namespace faultsim {
@@ -16,7 +17,9 @@ using Index = SuiteSparse_long;
 constexpr int kSmallGraph = 500;
 constexpr Index kNoParent = -1;  // CHOLMOD's EMPTY
 
-GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, int n_groups) {
+GroupGraph group_graph(const cholmod_sparse& a, const UnknownGroups& groups) {
+  const std::vector<int>& group = groups.of;
+  const int n_groups = groups.n;
   const Index* begin = static_cast<const Index*>(a.p);
   const Index* rows = static_cast<const Index*>(a.i);
   const Index n_bulk = static_cast<Index>(group.size());
@@ -49,26 +52,19 @@ GroupGraph group_graph(const cholmod_sparse& a, const std::vector<int>& group, i
   return graph;
 }
 
-std::vector<Index> order_groups(GroupGraph graph, CholmodCommon& common,
-                                const std::function<bool()>& stop) {
+std::vector<Index> order_groups(GroupGraph graph, const std::vector<std::array<int, 2>>& ends,
+                                CholmodCommon& common, const std::function<bool()>& stop) {
   const std::size_t n = graph.begin.size() - 1;
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index{0});
   if (graph.rows.empty()) return order;
   if (n >= kSmallGraph) {
-    if (std::optional<std::vector<Index>> dissected = nested_dissection(graph, stop))
-      return *dissected;
+    std::optional<std::vector<Index>> dissected;
+    if (!ends.empty()) dissected = corner_dissection(graph, ends, stop);
+    if (!dissected) dissected = nested_dissection(graph, stop);
+    if (dissected) return *dissected;
   }
-  cholmod_sparse a{};
-  a.nrow = a.ncol = n;
-  a.nzmax = graph.rows.size();
-  a.p = graph.begin.data();
-  a.i = graph.rows.data();
-  a.stype = -1;
-  a.itype = CHOLMOD_LONG;
-  a.xtype = CHOLMOD_PATTERN;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = a.packed = 1;
+  cholmod_sparse a = pattern_of(graph);
   const int done = cholmod_l_amd(&a, nullptr, 0, order.data(), common.get());
   FAULTSIM_DEMAND(done == 1, "AMD failed, CHOLMOD status ", common.get()->status);
   return order;
@@ -102,11 +98,26 @@ void postorder_bulk(cholmod_sparse& a, Index n_bulk, std::vector<Index>& order,
 
 }  // namespace
 
-std::vector<Index> trailing_order(cholmod_sparse& a, Index n_bulk, const std::vector<int>& group,
-                                  int n_groups, CholmodCommon& common,
-                                  const std::function<bool()>& stop) {
+cholmod_sparse pattern_of(GroupGraph& graph) {
+  cholmod_sparse a{};
+  a.nrow = a.ncol = graph.begin.size() - 1;
+  a.nzmax = graph.rows.size();
+  a.p = graph.begin.data();
+  a.i = graph.rows.data();
+  a.stype = -1;
+  a.itype = CHOLMOD_LONG;
+  a.xtype = CHOLMOD_PATTERN;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = a.packed = 1;
+  return a;
+}
+
+std::vector<Index> trailing_order(cholmod_sparse& a, Index n_bulk, const UnknownGroups& groups,
+                                  CholmodCommon& common, const std::function<bool()>& stop) {
+  const std::vector<int>& group = groups.of;
+  FAULTSIM_DEMAND(groups.ends.empty() || std::ssize(groups.ends) == groups.n, groups.ends.size());
   const std::vector<Index> group_order =
-      order_groups(group_graph(a, group, n_groups), common, stop);
+      order_groups(group_graph(a, groups), groups.ends, common, stop);
   std::vector<Index> place(group_order.size());
   for (std::size_t i = 0; i < group_order.size(); ++i) {
     place[group_order[i]] = static_cast<Index>(i);

@@ -225,6 +225,11 @@ void for_each_key(Of<MeshVolume> auto& v, auto&& visit) {
   visit({"compartment", kFamily}, v.compartment);
 }
 
+/// Under which identities and families keep the file of a mesh: another name when what is computed
+/// on meshes alone changes, so that grids keep theirs (kNumericsVersion is for both). 2: unknowns
+/// ordered by corners.
+inline constexpr const char* kMeshFileInText = "file, numerics 2";
+
 /// A mesh from a file, in place of the grid of a box.
 struct MeshFile {
   std::string name;                         ///< as the scene names it.
@@ -236,7 +241,7 @@ struct MeshFile {
   }
 };
 void for_each_key(Of<MeshFile> auto& m, auto&& visit) {
-  visit({"file", kByHand}, m.content->fingerprint);
+  visit({"file", kByHand, kMeshFileInText}, m.content->fingerprint);
   visit({"volumes", kByHand}, m.volumes);
 }
 

@@ -11,21 +11,20 @@ namespace faultsim::benchmarks {
 struct PlainBulk {
   DofMap dofs;
   SparseMatrix k;
-  std::vector<int> group;
-  int n_groups = 0;
+  UnknownGroups groups;
 
-  TrailingCholesky factorised() const { return TrailingCholesky(k, 0, group, n_groups); }
+  TrailingCholesky factorised() const { return TrailingCholesky(k, 0, groups); }
 };
 
 inline PlainBulk plain_bulk(const BulkProblem& problem) {
   DofMap dofs(problem.mesh, problem.conditions, static_cast<int>(problem.loads.size()));
   SparseMatrix k =
       assemble_stiffness(problem.mesh, problem.materials, dofs, problem.mean_dilatation);
-  std::vector<int> group = dofs.bulk_group();
-  const int n_groups = dofs.n_groups();
-  for (int g = 0; g < dofs.n_jump(); ++g) group.push_back(n_groups + g / 3);
-  const int n_jump_groups = (dofs.n_jump() + 2) / 3;
-  return {std::move(dofs), std::move(k), std::move(group), n_groups + n_jump_groups};
+  UnknownGroups groups = dofs.bulk_groups();
+  for (int g = 0; g < dofs.n_jump(); ++g) groups.of.push_back(groups.n + g / 3);
+  groups.n += (dofs.n_jump() + 2) / 3;
+  if (!groups.ends.empty()) groups.ends.resize(groups.n, {-1, -1});
+  return {std::move(dofs), std::move(k), std::move(groups)};
 }
 
 }  // namespace faultsim::benchmarks

@@ -1,5 +1,6 @@
-// The condensed path against an independent solve: both-sided displacements and multipliers in one
-// saddle-point system, semismooth Newton on it with a sparse LU, no condensation anywhere.
+// The condensed and the coupled path against an independent solve: both-sided displacements and
+// multipliers in one saddle-point system, semismooth Newton on it with a sparse LU, no condensation
+// anywhere.
 
 #include <gtest/gtest.h>
 
@@ -13,8 +14,9 @@
 
 #include "simulator/condensation/condensation.h"
 #include "simulator/contact/contact.h"
+#include "simulator/coupled/coupled_contact.h"
 #include "simulator/mesh/mesh_spec.h"
-#include "tests/unit/mesh/cut_body.h"
+#include "tests/unit/condensation/junction_problem.h"
 
 namespace faultsim {
 namespace {
@@ -301,11 +303,18 @@ void expect_equal(const BulkProblem& problem, const Kinematics& kinematics,
   ContactSolver solver(op, laws, options);
   ContactState state = initial_state(op);
   SaddlePoint reference(problem, kinematics);
+  const TwoSidedBulk two_sided(problem);
+  const CoupledContact coupled(
+      two_sided, laws,
+      {.solver = {LeadingKind::exact, SchurKind::bds}, .traction_tolerance = 1e-11});
+  ContactState coupled_state = initial_state(op);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(two_sided.n_displacements());
 
   Eigen::VectorXd before = Eigen::VectorXd::Zero(3 * n_nodes);
   bool seen[3] = {false, false, false};
   bool seen_together = false;
   ASSERT_EQ(solver.solve_step(before, locked, state).outcome, Outcome::converged);
+  ASSERT_TRUE(coupled.advance({{0, 0, 0}, locked}, coupled_state, u).converged);
   before = locked;
   for (const std::vector<double>& factors : load_steps) {
     Eigen::VectorXd after = locked;
@@ -314,6 +323,8 @@ void expect_equal(const BulkProblem& problem, const Kinematics& kinematics,
     const ContactReport report = solver.solve_step(before, after, state);
     ASSERT_EQ(report.outcome, Outcome::converged) << report.reason;
     before = after;
+    const CoupledStepReport step = coupled.advance({factors, locked}, coupled_state, u);
+    ASSERT_TRUE(step.converged) << step.reason;
     ASSERT_GT(reference.solve_step(factors, initial), 0);
     bool here[3] = {false, false, false};
     for (const FaultState s : state.state)
@@ -322,52 +333,19 @@ void expect_equal(const BulkProblem& problem, const Kinematics& kinematics,
 
     const double slip_scale = std::max(reference.jump().cwiseAbs().maxCoeff(), 1e-6);
     const double traction_scale = reference.traction().cwiseAbs().maxCoeff();
-    EXPECT_LT((state.jump(dofs) - reference.jump()).cwiseAbs().maxCoeff(), 1e-8 * slip_scale);
-    EXPECT_LT((state.traction(dofs) - reference.traction()).cwiseAbs().maxCoeff(),
-              1e-8 * traction_scale);
+    for (const ContactState* path : {&state, &coupled_state}) {
+      EXPECT_LT((path->jump(dofs) - reference.jump()).cwiseAbs().maxCoeff(), 1e-8 * slip_scale);
+      EXPECT_LT((path->traction(dofs) - reference.traction()).cwiseAbs().maxCoeff(),
+                1e-8 * traction_scale);
+    }
   }
   EXPECT_TRUE(seen[0] && seen[1] && seen[2]);
   EXPECT_TRUE(seen_together) << "no step has stick, slip and open nodes at once";
 }
 
-TEST(SaddlePoint, EqualsTheCondensedPathWithStickSlipAndOpenNodes) {
+TEST(SaddlePoint, EqualsBothPathsWithStickSlipAndOpenNodes) {
   const BulkProblem problem = make_problem();
   expect_equal(problem, of_pairs(problem.mesh), kSteps);
-}
-
-/// A cube of tetrahedra that a fault A cuts from the top down, and a fault B that ends at A; on
-/// both sides of B the rock loses pressure unevenly, its side is pulled and pushed along.
-BulkProblem make_junction() {
-  constexpr int kCubes = 4;
-  const auto below_rim = [](const Eigen::Vector3d& x) { return x.z() > 1; };
-  UncutMesh body = test::body_of(
-      test::made_of(kCubes, 3), kCubes,
-      {{"A", {1, 0, 0}, 2, below_rim},
-       {"B", {0, 1, 0}, 2, [=](const Eigen::Vector3d& x) { return below_rim(x) && x.x() > 2; }}});
-  test::distort(body, kCubes, 0.12);
-  for (std::size_t cell = 0; cell < body.n_cells(); ++cell) {
-    const Eigen::Vector3d& x = body.nodes[static_cast<std::size_t>(body.corners[4 * cell])];
-    const bool inside = x.x() >= 2 && x.y() >= 2 && x.z() >= 1;
-    body.region[cell] = inside ? 0 : -1;
-    body.region_fraction[cell] = inside ? 1 : 0;
-  }
-  for (Eigen::Vector3d& x : body.nodes) x = 100 * x - Eigen::Vector3d(0, 0, 400);
-  BulkProblem problem;
-  problem.mesh = cut(body, "");
-  problem.materials = {{12e9, 0.2}};
-  const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d none = Eigen::Matrix3d::Zero(), pull = none, shear = none;
-  pull(0, 0) = 1;
-  shear(0, 1) = shear(1, 0) = 1;
-  problem.conditions = {{Side::z_min, {true, true, true}, zero, none, -1}};
-  LoadCase pressure, sideways, tension;
-  pressure.region = 0;
-  sideways.stress_groups = {Side::x_max};
-  sideways.stress = shear;
-  tension.stress_groups = {Side::x_max};
-  tension.stress = pull;
-  problem.loads = {pressure, sideways, tension};
-  return problem;
 }
 
 /// By what cells have which copies and where they lie: nothing of the mesh's own shares.
@@ -454,8 +432,8 @@ class FromCells {
   std::map<int, Eigen::Vector3d> centre_;  // of a cell that has the copy
 };
 
-TEST(SaddlePoint, EqualsTheCondensedPathOnTetrahedraWithAJunction) {
-  const BulkProblem problem = make_junction();
+TEST(SaddlePoint, EqualsBothPathsOnTetrahedraWithAJunction) {
+  const BulkProblem problem = test::junction_problem();
   expect_equal(problem, FromCells(problem.mesh).kinematics(),
                {{-10e6, 0, 0}, {-10e6, 2e6, 2e6}, {-10e6, 4e6, 6e6}, {-4e6, 1e6, 3e6}});
 }

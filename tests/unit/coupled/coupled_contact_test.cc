@@ -16,8 +16,9 @@ using test::CoupledExample;
 /// multipliers.
 class TwoPaths {
  public:
-  TwoPaths(CoulombLaw law, bool cumulated, const SolverChoice& solver)
-      : op_(test::condense(example_.problem)) {
+  TwoPaths(CoulombLaw law, bool cumulated, const SolverChoice& solver,
+           BulkProblem problem = test::mixed_problem())
+      : example_(std::move(problem)), op_(test::condense(example_.problem)) {
     const int n = static_cast<int>(op_.geometry.nodes.size());
     law.slip_measure = cumulated ? SlipMeasure::cumulated : SlipMeasure::current;
     laws_.assign(n, law);
@@ -47,8 +48,8 @@ class TwoPaths {
     Eigen::VectorXd locked = background_;
     for (const OperatorNode& node : op_.geometry.nodes)
       load.background[node.dof[0]] += overpressure;
-    locked =
-        load.background + op_.loads.traction * Eigen::Map<const Eigen::VectorXd>(factors.data(), 4);
+    locked = load.background + op_.loads.traction * Eigen::Map<const Eigen::VectorXd>(
+                                                        factors.data(), std::ssize(factors));
     const ContactReport condensed = condensed_->solve_step(before_, locked, other_);
     ASSERT_EQ(condensed.outcome, Outcome::converged) << condensed.reason;
     ASSERT_EQ(condensed.counts.sub_steps, 1) << "or the paths would differ";
@@ -123,6 +124,20 @@ TEST(CoupledContact, FindsTheSameWithEveryPreconditioner) {
       paths.step({-6e6, 0.03, 0.3, -2e6}, 0);
       paths.step({-9e6, 0, 0.8, -4e6}, 4.2e6);
       expect_all_states(paths, 7);
+    }
+  }
+}
+
+TEST(CoupledContact, IsTheCondensedPathOnTetrahedraWhereAFaultEndsAtAnother) {
+  for (const LeadingKind leading : {LeadingKind::exact, LeadingKind::amg}) {
+    for (const SchurKind schur : enumerators<SchurKind>()) {
+      SCOPED_TRACE(std::string(to_string(leading)) + " " + to_string(schur));
+      TwoPaths paths(friction(0.4, 0.4, 0), false, {leading, schur}, test::junction_problem());
+      paths.step({-10e6, 0, 0}, 0);
+      paths.step({-10e6, 2e6, 2e6}, 0);
+      paths.step({-10e6, 2e6, 3e6}, 3e6);
+      paths.step({-4e6, 1e6, 1e6}, 1e6);
+      expect_all_states(paths, 5);
     }
   }
 }

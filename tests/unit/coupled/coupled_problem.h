@@ -2,16 +2,20 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "simulator/coupled/saddle_point.h"
+#include "tests/unit/condensation/junction_problem.h"
 #include "tests/unit/condensation/test_problem.h"
 
 namespace faultsim::test {
 
-/// The all-stick Jacobian of condensation's problem with something of everything.
+/// The all-stick Jacobian of a problem, of condensation's with something of everything if none is
+/// given.
 struct CoupledExample {
-  CoupledExample() : problem(mixed_problem()), bulk(problem), stick(make_saddle_point(bulk)) {}
+  explicit CoupledExample(BulkProblem given = mixed_problem())
+      : problem(std::move(given)), bulk(problem), stick(make_saddle_point(bulk)) {}
 
   /// Every third node slips, every seventh is open.
   std::vector<NodeLinearisation> some_move() const {

@@ -6,6 +6,7 @@
 
 #include "simulator/elasticity/elasticity.h"
 #include "simulator/elasticity/rigid_modes.h"
+#include "tests/unit/condensation/junction_problem.h"
 #include "tests/unit/elasticity/test_box.h"
 
 namespace faultsim {
@@ -24,12 +25,46 @@ std::string components(const DofMap& dofs, int node) {
   return text;
 }
 
+TEST(DofMap, NodesAmidSidesKnowTheGroupsAtTheirEnds) {
+  const BulkProblem problem = test::junction_problem();
+  const Mesh& mesh = problem.mesh;
+  const DofMap dofs(mesh, problem.conditions, 3);
+  const UnknownGroups& groups = dofs.bulk_groups();
+  const auto group_of = [&](int node) {
+    const auto terms = dofs.terms(node, 0);
+    return terms.empty() ? -1 : groups.of[static_cast<std::size_t>(terms[0].unknown)];
+  };
+  ASSERT_EQ(std::ssize(groups.ends), groups.n);
+  int n_between = 0;
+  for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
+    const auto nodes = mesh.cells[cell];
+    for (std::size_t side = 0; side < 6; ++side) {
+      const int middle = group_of(nodes[4 + side]);
+      if (middle < 0) continue;
+      const auto [a, b] = kTetrahedronSides[side];
+      std::array<int, 2> ends = {group_of(nodes[a]), group_of(nodes[b])};
+      std::array<int, 2> said = groups.ends[static_cast<std::size_t>(middle)];
+      std::ranges::sort(ends);
+      std::ranges::sort(said);
+      EXPECT_EQ(said, ends);
+      n_between += ends[0] >= 0;
+    }
+    for (const int corner : mesh.cells.corners(cell)) {
+      const int group = group_of(corner);
+      if (group < 0) continue;
+      EXPECT_EQ(groups.ends[static_cast<std::size_t>(group)], (std::array<int, 2>{-1, -1}));
+    }
+  }
+  EXPECT_GT(n_between, 100);
+  EXPECT_TRUE(DofMap(make_box(kCells, {4, 2, 3}, {}), {}, 0).bulk_groups().ends.empty());
+}
+
 TEST(DofMap, UnknownsAreMeansAndLocalJumps) {
   const Mesh mesh = make_box(kCells, {4, 2, 3}, {{2, 0, 2, 0, 2}}, test::shear_to_dip(60));
   const DofMap dofs(mesh, test::rollers({Side::x_min}), 0);
   EXPECT_EQ(dofs.n_unknowns(), dofs.n_bulk() + dofs.n_jump());
   EXPECT_EQ(dofs.n_jump(), 3 * static_cast<int>(mesh.faults[0].nodes.size()));
-  EXPECT_EQ(static_cast<int>(dofs.bulk_group().size()), dofs.n_bulk());
+  EXPECT_EQ(static_cast<int>(dofs.bulk_groups().of.size()), dofs.n_bulk());
   const Eigen::VectorXd x = Eigen::VectorXd::Random(dofs.n_unknowns());
   const Eigen::Matrix3Xd u = nodal_displacement(mesh, dofs, x, {});
   for (std::size_t k = 0; k < mesh.faults[0].nodes.size(); ++k) {

@@ -20,16 +20,15 @@ using Sparse = TrailingCholesky::SparseMatrix;
 /// the lower triangle of a positive definite matrix and its grouping.
 struct Lattice {
   Sparse lower;
-  std::vector<int> group;
-  int n_groups = 0;
+  UnknownGroups groups;
 };
 
 Lattice make_lattice(int n, int copies, int n_last, bool shuffle_trailing = false) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   Lattice lattice;
-  lattice.n_groups = copies * n * n * n;
-  const int n_bulk = 3 * lattice.n_groups;
+  lattice.groups.n = copies * n * n * n;
+  const int n_bulk = 3 * lattice.groups.n;
   std::vector<Eigen::Triplet<double, long>> entries;
   std::vector<double> row_sum(static_cast<std::size_t>(n_bulk + n_last), 0.1);
   const auto couple = [&](int i, int j, double value) {
@@ -41,12 +40,12 @@ Lattice make_lattice(int n, int copies, int n_last, bool shuffle_trailing = fals
     for (int c = 0; c < 3; ++c)
       for (int d = 0; d < 3; ++d) couple(3 * a + c, 3 * b + d, uniform(random));
   };
-  for (int p = 0; p < lattice.n_groups; ++p) {
+  for (int p = 0; p < lattice.groups.n; ++p) {
     const int x = p % n, y = p / n % n, z = p / n / n % n;
     if (x + 1 < n) couple_points(p, p + 1);
     if (y + 1 < n) couple_points(p, p + n);
     if (z + 1 < n) couple_points(p, p + n * n);
-    for (int c = 0; c < 3; ++c) lattice.group.push_back(p);
+    for (int c = 0; c < 3; ++c) lattice.groups.of.push_back(p);
   }
   for (int g = 0; g < n_last; ++g) {
     // Dealt to the copies in turn, so that neighbours among the trailing ones are in other bodies.
@@ -80,7 +79,7 @@ Blocks split(const Sparse& lower, int n_last) {
 }
 
 void expect_schur_complement(const Lattice& lattice, int n_last) {
-  TrailingCholesky factor(lattice.lower, n_last, lattice.group, lattice.n_groups);
+  TrailingCholesky factor(lattice.lower, n_last, lattice.groups);
   ASSERT_EQ(factor.failed_column(), -1);
   const Eigen::MatrixXd l = factor.trailing_factor();
   const Eigen::MatrixXd h = lower_times_transpose(l);
@@ -105,7 +104,7 @@ TEST(TrailingCholesky, KeepsTrailingUnknownsInPlaceInDisconnectedBodies) {
 
 TEST(TrailingCholesky, SolvesWithoutTrailingUnknowns) {
   const Lattice lattice = make_lattice(4, 2, 0);
-  TrailingCholesky factor(lattice.lower, 0, lattice.group, lattice.n_groups);
+  TrailingCholesky factor(lattice.lower, 0, lattice.groups);
   const Eigen::VectorXd x = Eigen::VectorXd::Random(lattice.lower.rows());
   EXPECT_LT((factor.solve(dense(lattice.lower) * x) - x).norm(), 1e-12 * x.norm());
   EXPECT_EQ(factor.trailing_factor().size(), 0);
@@ -116,7 +115,7 @@ TEST(TrailingCholesky, CondensesAndExpandsOneLoad) {
   const int n_last = 10;
   const Lattice lattice = make_lattice(5, 2, n_last);
   const Blocks blocks = split(lattice.lower, n_last);
-  TrailingCholesky factor(lattice.lower, n_last, lattice.group, lattice.n_groups);
+  TrailingCholesky factor(lattice.lower, n_last, lattice.groups);
   const Eigen::VectorXd f = Eigen::VectorXd::Random(lattice.lower.rows());
   const Eigen::VectorXd g = Eigen::VectorXd::Random(n_last);
   const Eigen::VectorXd f_r = f.head(f.size() - n_last);
@@ -135,8 +134,7 @@ TEST(TrailingCholesky, CondensesAndExpandsOneLoad) {
 TEST(TrailingCholesky, NamesTheUnknownWhereTheMatrixIsNotPositiveDefinite) {
   Lattice lattice = make_lattice(5, 1, 4);
   lattice.lower.coeffRef(200, 200) = -1;
-  EXPECT_EQ(TrailingCholesky(lattice.lower, 4, lattice.group, lattice.n_groups).failed_column(),
-            200);
+  EXPECT_EQ(TrailingCholesky(lattice.lower, 4, lattice.groups).failed_column(), 200);
 }
 
 TEST(TrailingCholesky, SeesASingularMatrixThatRoundingMadePositive) {
@@ -153,14 +151,14 @@ TEST(TrailingCholesky, SeesASingularMatrixThatRoundingMadePositive) {
   k.setFromTriplets(entries.begin(), entries.end());
   std::vector<int> group;
   for (int i = 0; i < n; ++i) group.push_back(i);
-  EXPECT_GE(TrailingCholesky(k, 0, group, n).failed_column(), 0);
+  EXPECT_GE(TrailingCholesky(k, 0, {group, n}).failed_column(), 0);
 }
 
 TEST(TrailingCholesky, GivesTheSameBitsTwice) {
   const Lattice lattice = make_lattice(8, 1, 20);
   const Eigen::VectorXd f = Eigen::VectorXd::Random(lattice.lower.rows());
-  TrailingCholesky first(lattice.lower, 20, lattice.group, lattice.n_groups);
-  TrailingCholesky second(lattice.lower, 20, lattice.group, lattice.n_groups);
+  TrailingCholesky first(lattice.lower, 20, lattice.groups);
+  TrailingCholesky second(lattice.lower, 20, lattice.groups);
   EXPECT_EQ(first.trailing_factor(), second.trailing_factor());
   EXPECT_EQ(first.solve(f), second.solve(f));
   EXPECT_GT(first.statistics().bytes, 0);
@@ -170,7 +168,7 @@ TEST(TrailingCholesky, GivesTheSameBitsTwice) {
 struct Cube : Lattice {
   Cube() : Lattice(make_lattice(18, 1, 300)) { set_blas_threads(1); }
   TrailingCholesky factor(const FactorRun& run) const {
-    return TrailingCholesky(lower, 300, group, n_groups, run);
+    return TrailingCholesky(lower, 300, groups, run);
   }
 };
 
@@ -242,7 +240,7 @@ std::vector<SparseLoad> sparse_loads(int n_unknowns, int n_loads) {
 TEST(CondenseSparse, IsTheCondensedLoadOfEachColumn) {
   for (const int copies : {1, 2}) {
     const Lattice lattice = make_lattice(6, copies, 20);
-    TrailingCholesky factor(lattice.lower, 20, lattice.group, lattice.n_groups);
+    TrailingCholesky factor(lattice.lower, 20, lattice.groups);
     const auto n = static_cast<int>(lattice.lower.rows());
     const std::vector<SparseLoad> loads = sparse_loads(n, 150);  // three blocks, one not full
     std::vector<double> shares;
@@ -261,7 +259,7 @@ TEST(CondenseSparse, IsTheCondensedLoadOfEachColumn) {
 
 TEST(CondenseSparse, AColumnHasTheSameBitsWhateverElseIsAsked) {
   const Lattice lattice = make_lattice(9, 1, 40);
-  TrailingCholesky factor(lattice.lower, 40, lattice.group, lattice.n_groups);
+  TrailingCholesky factor(lattice.lower, 40, lattice.groups);
   std::vector<SparseLoad> loads = sparse_loads(static_cast<int>(lattice.lower.rows()), 130);
   const auto condensed = [&] { return factor.condense(loads, [](double) {}); };
   const Eigen::MatrixXd all = condensed();
@@ -277,7 +275,7 @@ TEST(CondenseSparse, AColumnHasTheSameBitsWhateverElseIsAsked) {
 
 TEST(CondenseSparse, OfNothingIsNothing) {
   const Lattice lattice = make_lattice(3, 1, 4);
-  TrailingCholesky factor(lattice.lower, 4, lattice.group, lattice.n_groups);
+  TrailingCholesky factor(lattice.lower, 4, lattice.groups);
   EXPECT_EQ(factor.condense(std::vector<SparseLoad>{}, [](double) {}).cols(), 0);
   EXPECT_EQ(factor.condense(std::vector<SparseLoad>(1), [](double) {}), Eigen::Vector4d::Zero());
 }
@@ -289,7 +287,7 @@ TEST(TrailingCholesky, OneAnalysisServesAllMatricesOfAPattern) {
   second.lower *= 3.7;
   FactorAnalysis analysis;
   const auto factor = [&](const Lattice& of, FactorAnalysis* kept) {
-    TrailingCholesky cholesky(of.lower, 12, of.group, of.n_groups, {.analysis = kept});
+    TrailingCholesky cholesky(of.lower, 12, of.groups, {.analysis = kept});
     EXPECT_EQ(cholesky.failed_column(), -1);
     return cholesky.trailing_factor();
   };
@@ -302,13 +300,9 @@ TEST(TrailingCholesky, OneAnalysisServesAllMatricesOfAPattern) {
   EXPECT_EQ(factor(other, &analysis), factor(other, nullptr));
   EXPECT_EQ(analysis.n_made(), 2);
   // The same matrix with other unknowns at its end.
-  TrailingCholesky fewer(other.lower, 6,
-                         [&] {
-                           std::vector<int> group = other.group;
-                           for (int g = 0; g < 6; ++g) group.push_back(other.n_groups + g);
-                           return group;
-                         }(),
-                         other.n_groups + 6, {.analysis = &analysis});
+  UnknownGroups groups = other.groups;
+  for (int g = 0; g < 6; ++g) groups.of.push_back(groups.n++);
+  TrailingCholesky fewer(other.lower, 6, groups, {.analysis = &analysis});
   EXPECT_EQ(fewer.trailing_factor().rows(), 6);
   EXPECT_EQ(analysis.n_made(), 3);
 }
