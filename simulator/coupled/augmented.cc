@@ -12,15 +12,15 @@ AugmentedJacobian augment(const SaddlePoint& j) {
     for (SparseMatrix::InnerIterator a(j.constraint, k); a; ++a) {
       gram += a.value() * a.value();
       for (SparseMatrix::InnerIterator b(j.constraint, k); b; ++b) {
-        const double entry = j.leading.coeff(a.row(), b.row());
+        const double entry = j.leading().coeff(a.row(), b.row());
         square += entry * entry;
       }
     }
     out.springs[k] = std::sqrt(square) / gram;
   }
   SaddlePoint& regular = out.regular;
-  regular.leading =
-      j.leading + SparseMatrix(j.coupling * out.springs.asDiagonal() * j.constraint.transpose());
+  regular.set_leading(
+      j.leading() + SparseMatrix(j.coupling * out.springs.asDiagonal() * j.constraint.transpose()));
   regular.constraint = regular.coupling = SparseMatrix(j.n_displacements(), 0);
   regular.node_begin = {0};
   regular.symmetric = j.symmetric;

@@ -3,12 +3,11 @@
 #include <malloc.h>
 
 #include <ctime>
-#include <exception>
+#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/coupled/augmented.h"
-#include "simulator/coupled/hypre_objects.h"
 
 namespace faultsim {
 namespace {
@@ -22,43 +21,27 @@ double heap_bytes() {
 
 double scale_of(const SaddlePoint& j) {
   if (j.n_multipliers() == 0) return 1;
-  return j.leading.diagonal().cwiseAbs().mean() / j.gram().cwiseSqrt().mean();
+  return j.leading().diagonal().cwiseAbs().mean() / j.gram().cwiseSqrt().mean();
 }
 
-/// J with multiplier rows and columns times `scale`.
-SparseMatrix scaled_jacobian(const SaddlePoint& j, double scale) {
-  const int n_u = j.n_displacements(), n = n_u + j.n_multipliers();
-  std::vector<Eigen::Triplet<double, long>> entries;
-  entries.reserve(j.leading.nonZeros() + j.coupling.nonZeros() + j.constraint.nonZeros());
-  const auto add = [&](const SparseMatrix& block, double factor, int row, int column,
-                       bool transposed) {
-    for (int k = 0; k < block.outerSize(); ++k) {
-      for (SparseMatrix::InnerIterator it(block, k); it; ++it) {
-        const long r = transposed ? it.col() : it.row(), c = transposed ? it.row() : it.col();
-        entries.emplace_back(row + r, column + c, factor * it.value());
-      }
-    }
-  };
-  add(j.leading, 1, 0, 0, false);
-  add(j.coupling, scale, 0, n_u, false);
-  add(j.constraint, scale, n_u, 0, true);
-  SparseMatrix jacobian(n, n);
-  jacobian.setFromTriplets(entries.begin(), entries.end());
-  return jacobian;
-}
-
-/// What hypre's FlexGMRES calls back: the preconditioner, and the residual before each iteration.
-struct Preconditioner {
+/// J with multiplier rows and columns times `scale`, and its preconditioner.
+struct ScaledSystem {
   const SaddlePoint& j;
   BlockForm form;
   double scale;
-  LinearMap leading;
-  LinearMap schur;               ///< none: RAC, `leading` is of S_u.
+  LinearMap leading = nullptr;
+  LinearMap schur = nullptr;     ///< none: RAC, `leading` is of S_u.
   Eigen::VectorXd springs = {};  ///< D of RAC.
-  std::vector<double> residuals = {};
-  std::exception_ptr error = {};  ///< exceptions must not cross hypre's C.
 
-  void apply(const Eigen::Ref<const Eigen::VectorXd>& r, Eigen::Ref<Eigen::VectorXd> z) {
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+    const int n_u = j.n_displacements(), n_l = j.n_multipliers();
+    y.resize(n_u + n_l);
+    y.head(n_u) = j.leading() * x.head(n_u);
+    y.head(n_u) += scale * (j.coupling * x.tail(n_l));
+    y.tail(n_l) = scale * (j.constraint.transpose() * x.head(n_u));
+  }
+
+  void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     const Eigen::VectorXd r_u = r.head(n_u), r_l = r.tail(n_l) / scale;
     Eigen::VectorXd u, lambda, correction;
@@ -74,69 +57,9 @@ struct Preconditioner {
       schur(-r_l, lambda);
       leading(r_u - j.coupling * lambda, u);
     }
-    z.head(n_u) = u;
-    z.tail(n_l) = lambda / scale;
+    z.resize(n_u + n_l);
+    z << u, lambda / scale;
   }
-};
-
-Preconditioner& self_of(HYPRE_Solver solver) { return *reinterpret_cast<Preconditioner*>(solver); }
-
-HYPRE_Int nothing_to_set_up(HYPRE_Solver, HYPRE_ParCSRMatrix, HYPRE_ParVector, HYPRE_ParVector) {
-  return 0;
-}
-
-HYPRE_Int precondition(HYPRE_Solver solver, HYPRE_ParCSRMatrix, HYPRE_ParVector r,
-                       HYPRE_ParVector z) {
-  Preconditioner& self = self_of(solver);
-  values_of(z) = values_of(r);
-  if (self.error) return 0;
-  try {
-    self.apply(Eigen::VectorXd(values_of(r)), values_of(z));
-  } catch (...) {
-    self.error = std::current_exception();
-  }
-  return 0;
-}
-
-HYPRE_Int record_residual(HYPRE_Solver solver, HYPRE_Int, HYPRE_Real relative_residual) {
-  self_of(solver).residuals.push_back(relative_residual);
-  return 0;
-}
-
-/// A FlexGMRES without restart.
-class FlexibleGmres {
- public:
-  FlexibleGmres(Preconditioner& preconditioner, double tolerance, int max_iterations) {
-    HYPRE_ParCSRFlexGMRESCreate(MPI_COMM_SELF, &solver_);
-    HYPRE_ParCSRFlexGMRESSetKDim(solver_, max_iterations);
-    HYPRE_ParCSRFlexGMRESSetMaxIter(solver_, max_iterations);
-    HYPRE_ParCSRFlexGMRESSetTol(solver_, tolerance);
-    HYPRE_ParCSRFlexGMRESSetPrecond(solver_, precondition, nothing_to_set_up,
-                                    reinterpret_cast<HYPRE_Solver>(&preconditioner));
-    HYPRE_ParCSRFlexGMRESSetModifyPC(solver_, record_residual);
-  }
-  ~FlexibleGmres() { HYPRE_ParCSRFlexGMRESDestroy(solver_); }
-  FlexibleGmres(const FlexibleGmres&) = delete;
-  FlexibleGmres& operator=(const FlexibleGmres&) = delete;
-
-  void solve(const HypreMatrix& matrix, const HypreVector& b, const HypreVector& x) {
-    HYPRE_ParCSRFlexGMRESSetup(solver_, matrix.get(), b.get(), x.get());
-    HYPRE_ParCSRFlexGMRESSolve(solver_, matrix.get(), b.get(), x.get());
-    check_hypre("solving");
-  }
-  int iterations() const {
-    HYPRE_Int n = 0;
-    HYPRE_ParCSRFlexGMRESGetNumIterations(solver_, &n);
-    return n;
-  }
-  double residual() const {
-    HYPRE_Real value = 0;
-    HYPRE_ParCSRFlexGMRESGetFinalRelativeResidualNorm(solver_, &value);
-    return value;
-  }
-
- private:
-  HYPRE_Solver solver_ = nullptr;
 };
 
 /// The kind of that name; none becomes a problem.
@@ -167,29 +90,22 @@ int CoupledReport::iterations_to(double tolerance) const {
 }
 
 struct CoupledSolver::Impl {
-  Impl(const SaddlePoint& saddle_point, const SolverChoice& choice)
-      : j(saddle_point),
-        scale(scale_of(j)),
-        jacobian(scaled_jacobian(j, scale)),
-        preconditioner{j, choice.form, scale, nullptr, nullptr} {
+  Impl(const SaddlePoint& j, const SolverChoice& choice) : system{j, choice.form, scale_of(j)} {
     const double start = processor_seconds(), before = heap_bytes();
     if (choice.schur == SchurKind::rac) {
-      const AugmentedJacobian augmented = augment(j);
-      preconditioner.springs = augmented.springs;
-      preconditioner.leading =
-          leading_block(choice.leading, augmented.regular, choice.fsai, choice.ilu);
+      AugmentedJacobian augmented = augment(j);
+      system.springs = std::move(augmented.springs);
+      system.leading =
+          leading_block(choice.leading, std::move(augmented.regular), choice.fsai, choice.ilu);
     } else {
-      preconditioner.leading = leading_block(choice.leading, j, choice.fsai, choice.ilu);
-      preconditioner.schur = schur_complement(choice.schur, j, choice.fsai);
+      system.leading = leading_block(choice.leading, j, choice.fsai, choice.ilu);
+      system.schur = schur_complement(choice.schur, j, choice.fsai);
     }
     setup_seconds = processor_seconds() - start;
     bytes = heap_bytes() - before;
   }
 
-  const SaddlePoint& j;
-  double scale;
-  HypreMatrix jacobian;
-  Preconditioner preconditioner;
+  ScaledSystem system;
   double setup_seconds = 0, bytes = 0;
 };
 
@@ -200,34 +116,24 @@ CoupledSolver::~CoupledSolver() = default;
 
 double CoupledSolver::setup_seconds() const { return impl_->setup_seconds; }
 double CoupledSolver::preconditioner_bytes() const { return impl_->bytes; }
-double CoupledSolver::multiplier_scale() const { return impl_->scale; }
+double CoupledSolver::multiplier_scale() const { return impl_->system.scale; }
 
 CoupledReport CoupledSolver::solve(const Eigen::VectorXd& f, const Eigen::VectorXd& g,
                                    double tolerance, int max_iterations, Eigen::VectorXd& u,
                                    Eigen::VectorXd& lambda) {
-  Impl& self = *impl_;
-  const SaddlePoint& j = self.j;
-  const int n_u = j.n_displacements(), n_l = j.n_multipliers();
+  const ScaledSystem& system = impl_->system;
+  const int n_u = system.j.n_displacements(), n_l = system.j.n_multipliers();
   FAULTSIM_DEMAND(f.size() == n_u && g.size() == n_l, f.size(), " and ", g.size());
   const double start = processor_seconds();
-  HypreVector b(n_u + n_l), x(n_u + n_l);
-  b.values() << f, self.scale * g;
-  self.preconditioner.residuals.clear();
-  FlexibleGmres gmres(self.preconditioner, tolerance, max_iterations);
-  gmres.solve(self.jacobian, b, x);
-  if (self.preconditioner.error) {
-    std::rethrow_exception(std::exchange(self.preconditioner.error, nullptr));
-  }
-  u = x.values().head(n_u);
-  lambda = self.scale * x.values().tail(n_l);
-  CoupledReport report;
-  report.residuals = self.preconditioner.residuals;
-  report.converged = gmres.residual() <= tolerance;
-  report.residuals.push_back(gmres.residual());
-  FAULTSIM_DEMAND(static_cast<int>(report.residuals.size()) == gmres.iterations() + 1,
-                  report.residuals.size(), " residuals of ", gmres.iterations(), " iterations");
-  report.seconds = processor_seconds() - start;
-  return report;
+  Eigen::VectorXd b(n_u + n_l), x;
+  b << f, system.scale * g;
+  const GmresReport done =
+      gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.multiply(v, w); },
+            [&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.precondition(v, w); }, b,
+            tolerance, max_iterations, x);
+  u = x.head(n_u);
+  lambda = system.scale * x.tail(n_l);
+  return {done.converged, done.residuals, processor_seconds() - start};
 }
 
 }  // namespace faultsim

@@ -37,8 +37,8 @@ struct CoupledReport {
   int iterations_to(double tolerance) const;
 };
 
-/// Solves J (u, λ) = (f, g) by right-preconditioned GMRES without restart (hypre's FlexGMRES, which
-/// keeps the preconditioned vectors), from zero. With M ≈ K + E and S̃ ≈ S,
+/// Solves J (u, λ) = (f, g) by right-preconditioned GMRES without restart, from zero; J is not put
+/// together for it. With M ≈ K + E and S̃ ≈ S,
 ///
 ///   full:   λ = S̃⁻¹ (Cᵀ M⁻¹ r_u − r_λ),  u = M⁻¹ r_u − M⁻¹ (C − F) λ
 ///   upper:  λ = −S̃⁻¹ r_λ,                u = M⁻¹ (r_u − (C − F) λ).

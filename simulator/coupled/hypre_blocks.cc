@@ -45,8 +45,9 @@ LinearMap set_up(const std::shared_ptr<HypreBlock>& block, Call set_up, Call sol
 }
 
 /// What both kinds of AMG share.
-std::shared_ptr<HypreBlock> amg_block(const SparseMatrix& a) {
-  const auto block = std::make_shared<HypreBlock>(a, HYPRE_BoomerAMGDestroy);
+std::shared_ptr<HypreBlock> amg_block(std::shared_ptr<const SparseMatrix> a) {
+  const auto block = std::make_shared<HypreBlock>(*a, HYPRE_BoomerAMGDestroy);
+  a.reset();
   HYPRE_BoomerAMGCreate(&block->solver);
   HYPRE_Solver solver = block->solver;
   HYPRE_BoomerAMGSetNumFunctions(solver, 3);  // unknown i is of component i mod 3
@@ -87,8 +88,9 @@ void set_rotations(const Eigen::MatrixXd& motions, HypreBlock& block) {
 
 }  // namespace
 
-LinearMap hypre_ilu(const SparseMatrix& a, const IluOptions& options) {
-  const auto block = std::make_shared<HypreBlock>(a, HYPRE_ILUDestroy);
+LinearMap hypre_ilu(std::shared_ptr<const SparseMatrix> a, const IluOptions& options) {
+  const auto block = std::make_shared<HypreBlock>(*a, HYPRE_ILUDestroy);
+  a.reset();
   HYPRE_ILUCreate(&block->solver);
   HYPRE_ILUSetType(block->solver, 1);  // ILUT on each rank's block
   HYPRE_ILUSetDropThreshold(block->solver, options.drop_tolerance);
@@ -98,8 +100,8 @@ LinearMap hypre_ilu(const SparseMatrix& a, const IluOptions& options) {
   return set_up(block, HYPRE_ILUSetup, HYPRE_ILUSolve);
 }
 
-LinearMap hypre_amg(const SparseMatrix& a, const Eigen::MatrixXd& rigid_motions) {
-  const auto block = amg_block(a);
+LinearMap hypre_amg(std::shared_ptr<const SparseMatrix> a, const Eigen::MatrixXd& rigid_motions) {
+  const auto block = amg_block(std::move(a));
   HYPRE_BoomerAMGSetNodal(block->solver, 4);  // strength of a node's 3 x 3 block: row sum
   HYPRE_BoomerAMGSetNodalDiag(block->solver, 1);
   // HMIS and a threshold of 1/4: with PMIS and 1/2, which hypre's manual has for three
@@ -109,8 +111,8 @@ LinearMap hypre_amg(const SparseMatrix& a, const Eigen::MatrixXd& rigid_motions)
   return set_up(block, HYPRE_BoomerAMGSetup, HYPRE_BoomerAMGSolve);
 }
 
-LinearMap hypre_amg_by_component(const SparseMatrix& a) {
-  const auto block = amg_block(a);
+LinearMap hypre_amg_by_component(std::shared_ptr<const SparseMatrix> a) {
+  const auto block = amg_block(std::move(a));
   HYPRE_BoomerAMGSetStrongThreshold(block->solver, 0.9);
   return set_up(block, HYPRE_BoomerAMGSetup, HYPRE_BoomerAMGSolve);
 }

@@ -6,15 +6,15 @@
 namespace faultsim {
 
 /// ILUT: L U with dropping. Symmetric only as far as dropping leaves it so.
-LinearMap hypre_ilu(const SparseMatrix& a, const IluOptions& options);
+LinearMap hypre_ilu(std::shared_ptr<const SparseMatrix> a, const IluOptions& options);
 /// One V-cycle of BoomerAMG for systems of three unknowns per node, whose interpolation keeps the
 /// rigid motions: translations as constants per component, rotations by hypre's "GM2" variant.
 /// @param rigid_motions  n x 6.
-LinearMap hypre_amg(const SparseMatrix& a, const Eigen::MatrixXd& rigid_motions);
+LinearMap hypre_amg(std::shared_ptr<const SparseMatrix> a, const Eigen::MatrixXd& rigid_motions);
 
 /// The same with components apart: each is coarsened and interpolated by itself, along strong
 /// entries only (0.9 of a row's largest). On stretched cells, where the rows of a node's block say
 /// little of the way in which it is stiff, and not as good on cubes.
-LinearMap hypre_amg_by_component(const SparseMatrix& a);
+LinearMap hypre_amg_by_component(std::shared_ptr<const SparseMatrix> a);
 
 }  // namespace faultsim

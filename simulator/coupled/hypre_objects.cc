@@ -4,7 +4,7 @@
 #include <mpi.h>
 
 #include <cstdlib>
-#include <vector>
+#include <limits>
 
 #include "simulator/common/errors.h"
 
@@ -55,30 +55,39 @@ void check_hypre(const char* doing) {
   throw ResourceError(concat("hypre failed while ", doing, ": ", text));
 }
 
-HypreMatrix::HypreMatrix(const SparseMatrix& matrix) {
-  FAULTSIM_DEMAND(matrix.rows() == matrix.cols(), matrix.rows(), " rows, ", matrix.cols());
+HypreMatrix::HypreMatrix(const SparseMatrix& symmetric) {
   start_hypre();
-  const Eigen::SparseMatrix<double, Eigen::RowMajor, int> rows = matrix;
-  const int n = static_cast<int>(rows.rows());
-  std::vector<int> count(n), index(n);
-  for (int i = 0; i < n; ++i) {
-    index[i] = i;
-    count[i] = rows.outerIndexPtr()[i + 1] - rows.outerIndexPtr()[i];
+  const long n_entries = symmetric.nonZeros();
+  FAULTSIM_DEMAND(symmetric.rows() == symmetric.cols() && symmetric.isCompressed() &&
+                      n_entries <= std::numeric_limits<HYPRE_Int>::max(),
+                  symmetric.rows(), " rows, ", symmetric.cols(), " columns, ", n_entries,
+                  " entries");
+  const auto n = static_cast<HYPRE_Int>(symmetric.rows());
+  HYPRE_BigInt range[] = {0, n};
+  matrix_ = hypre_ParCSRMatrixCreate(MPI_COMM_SELF, n, n, range, range, 0,
+                                     static_cast<HYPRE_Int>(n_entries), 0);
+  hypre_ParCSRMatrixInitialize(matrix_);
+  hypre_CSRMatrix* const local = hypre_ParCSRMatrixDiag(matrix_);
+  HYPRE_Int *begin = hypre_CSRMatrixI(local), *columns = hypre_CSRMatrixJ(local), at = 0;
+  HYPRE_Complex* const values = hypre_CSRMatrixData(local);
+  for (HYPRE_Int row = 0; row < n; ++row) {  // its diagonal first, as hypre's smoothers want it
+    HYPRE_Int next = at + 1;
+    for (SparseMatrix::InnerIterator it(symmetric, row); it; ++it) {
+      const HYPRE_Int place = it.row() == row ? at : next++;
+      columns[place] = static_cast<HYPRE_Int>(it.row());
+      values[place] = it.value();
+    }
+    begin[row] = at;
+    at = next;
   }
-  HYPRE_IJMatrixCreate(MPI_COMM_SELF, 0, n - 1, 0, n - 1, &owner_);
-  HYPRE_IJMatrixSetObjectType(owner_, HYPRE_PARCSR);
-  HYPRE_IJMatrixSetRowSizes(owner_, count.data());
-  HYPRE_IJMatrixInitialize(owner_);
-  HYPRE_IJMatrixSetValues(owner_, n, count.data(), index.data(), rows.innerIndexPtr(),
-                          rows.valuePtr());
-  HYPRE_IJMatrixAssemble(owner_);
-  void* object = nullptr;
-  HYPRE_IJMatrixGetObject(owner_, &object);
-  matrix_ = static_cast<HYPRE_ParCSRMatrix>(object);
+  begin[n] = at;
+  FAULTSIM_DEMAND(at == n_entries, "a row without its diagonal");
+  hypre_ParCSRMatrixSetNumNonzeros(matrix_);
+  hypre_ParCSRMatrixSetDNumNonzeros(matrix_);
   check_hypre("copying a matrix");
 }
 
-HypreMatrix::~HypreMatrix() { HYPRE_IJMatrixDestroy(owner_); }
+HypreMatrix::~HypreMatrix() { hypre_ParCSRMatrixDestroy(matrix_); }
 
 HypreVector::HypreVector(int size) {
   start_hypre();

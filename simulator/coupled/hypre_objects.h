@@ -16,17 +16,17 @@ namespace faultsim {
 /// error.
 void check_hypre(const char* doing);
 
-/// A copy of a square matrix as ParCSR.
+/// A copy of a symmetric matrix as ParCSR.
 class HypreMatrix {
  public:
-  explicit HypreMatrix(const SparseMatrix& matrix);
+  /// @param symmetric  both triangles, sorted columns, every diagonal there.
+  explicit HypreMatrix(const SparseMatrix& symmetric);
   ~HypreMatrix();
   HypreMatrix(const HypreMatrix&) = delete;
   HypreMatrix& operator=(const HypreMatrix&) = delete;
   HYPRE_ParCSRMatrix get() const { return matrix_; }
 
  private:
-  HYPRE_IJMatrix owner_ = nullptr;
   HYPRE_ParCSRMatrix matrix_ = nullptr;
 };
 

@@ -3,6 +3,7 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseLU>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "simulator/common/errors.h"
@@ -53,21 +54,25 @@ LinearMap direct_solver(const SparseMatrix& a, bool symmetric) {
   return [lu](const VectorXd& r, VectorXd& z) { z = lu->solve(r); };
 }
 
-LinearMap leading_block(LeadingKind kind, const SaddlePoint& j, const FsaiOptions& fsai,
+LinearMap leading_block(LeadingKind kind, SaddlePoint j, const FsaiOptions& fsai,
                         const IluOptions& ilu) {
+  if (kind == LeadingKind::exact) return direct_solver(j.leading(), j.symmetric);
+  std::shared_ptr<const SparseMatrix> a = j.symmetric_leading();
+  const Eigen::MatrixXd motions = std::move(j.rigid_motions);
+  j = {};  // what only `a` has may go once it has been copied
   switch (kind) {
-    case LeadingKind::exact:
-      return direct_solver(j.leading, j.symmetric);
     case LeadingKind::fsai:
-      return fsai_block(j.symmetric_leading(), fsai);
+      return fsai_block(*a, fsai);
     case LeadingKind::incomplete_cholesky:
-      return incomplete_cholesky(j.symmetric_leading());
+      return incomplete_cholesky(*a);
     case LeadingKind::ilu:
-      return hypre_ilu(j.symmetric_leading(), ilu);
+      return hypre_ilu(std::move(a), ilu);
     case LeadingKind::amg:
-      return hypre_amg(j.symmetric_leading(), j.rigid_motions);
+      return hypre_amg(std::move(a), motions);
     case LeadingKind::amg_by_component:
-      return hypre_amg_by_component(j.symmetric_leading());
+      return hypre_amg_by_component(std::move(a));
+    case LeadingKind::exact:
+      break;
   }
   FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
 }

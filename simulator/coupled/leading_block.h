@@ -33,7 +33,8 @@ struct IluOptions {
 /// the symmetric part of K + E. ilu and both amg are hypre's; incomplete_cholesky is Lin and
 /// Moré's (as many entries per column as K has, the largest ones, and a shift where a pivot fails).
 /// Throws ResourceError when memory is short or K + E is singular.
-LinearMap leading_block(LeadingKind kind, const SaddlePoint& j, const FsaiOptions& fsai,
+/// @param j  given away, its matrix need not wait for the end of the set-up.
+LinearMap leading_block(LeadingKind kind, SaddlePoint j, const FsaiOptions& fsai,
                         const IluOptions& ilu);
 
 /// G of the adaptive FSAI: lower triangular, A⁻¹ ≈ GᵀG, diag(G A Gᵀ) = 1.

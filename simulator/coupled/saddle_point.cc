@@ -72,9 +72,10 @@ Eigen::VectorXd SaddlePoint::gram() const {
   return gram;
 }
 
-SparseMatrix SaddlePoint::symmetric_leading() const {
-  if (symmetric) return leading;
-  return (leading + SparseMatrix(leading.transpose())) / 2;
+std::shared_ptr<const SparseMatrix> SaddlePoint::symmetric_leading() const {
+  if (symmetric) return leading_;
+  return std::make_shared<const SparseMatrix>((leading() + SparseMatrix(leading().transpose())) /
+                                              2);
 }
 
 SaddlePoint make_saddle_point(const TwoSidedBulk& bulk,
@@ -92,11 +93,11 @@ SaddlePoint make_saddle_point(const TwoSidedBulk& bulk,
   j.node_begin = writer.begin;
   j.constraint = matrix_of(writer.constraint, n_u, writer.n_multipliers);
   j.coupling = j.constraint;
-  j.leading = bulk.stiffness();
+  j.lend_leading(bulk.stiffness());
   if (!writer.slip.empty()) {
     j.symmetric = false;
     j.coupling -= matrix_of(writer.friction, n_u, writer.n_multipliers);
-    j.leading += matrix_of(writer.slip, n_u, n_u);
+    j.set_leading(bulk.stiffness() + matrix_of(writer.slip, n_u, n_u));
   }
   j.rigid_motions = bulk.rigid_motions();
   return j;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "simulator/coupled/slip_tangent.h"
@@ -28,19 +30,29 @@ struct NodeLinearisation {
 ///
 ///   E = Σ C_T ∂t*_T/∂Δg_T A⁻¹ C_Tᵀ,      F = −Σ C_T ∂t*_T/∂t'_N   in the column of its t'_N.
 struct SaddlePoint {
-  SparseMatrix leading;         ///< K + E, both triangles.
   SparseMatrix constraint;      ///< C, n_u x n_λ. CᵀC is diagonal but where faults meet.
   SparseMatrix coupling;        ///< C − F, n_u x n_λ; the same as C where nothing slips.
   std::vector<int> node_begin;  ///< multipliers of fault node k: node_begin[k] … node_begin[k+1]−1.
   bool symmetric = true;        ///< K + E = (K + E)ᵀ and F = 0.
   Eigen::MatrixXd rigid_motions;  ///< n_u x 6: the near-null space of K.
 
-  int n_displacements() const { return static_cast<int>(leading.rows()); }
+  /// K + E, both triangles; where nothing slips it is the bulk's K, which then must outlive this.
+  const SparseMatrix& leading() const { return *leading_; }
+  void set_leading(SparseMatrix matrix) {
+    leading_ = std::make_shared<const SparseMatrix>(std::move(matrix));
+  }
+  void lend_leading(const SparseMatrix& matrix) {
+    leading_ = std::shared_ptr<const SparseMatrix>(std::shared_ptr<void>(), &matrix);
+  }
+  int n_displacements() const { return static_cast<int>(leading_->rows()); }
   int n_multipliers() const { return static_cast<int>(constraint.cols()); }
   /// Diagonal of CᵀC, m4.
   Eigen::VectorXd gram() const;
-  /// (K + E + (K + E)ᵀ)/2, for preconditioners that need symmetry.
-  SparseMatrix symmetric_leading() const;
+  /// (K + E + (K + E)ᵀ)/2, for preconditioners that need symmetry; never null.
+  std::shared_ptr<const SparseMatrix> symmetric_leading() const;
+
+ private:
+  std::shared_ptr<const SparseMatrix> leading_;
 };
 
 /// @param nodes  one per node of bulk.fault_nodes(); empty = all stick.

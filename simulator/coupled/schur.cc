@@ -13,7 +13,7 @@ namespace {
 using Eigen::VectorXd;
 
 LinearMap exact_schur(const SaddlePoint& j) {
-  const LinearMap leading = direct_solver(j.leading, j.symmetric);
+  const LinearMap leading = direct_solver(j.leading(), j.symmetric);
   Eigen::MatrixXd s(j.n_multipliers(), j.n_multipliers());
   VectorXd column;
   for (int k = 0; k < j.n_multipliers(); ++k) {
@@ -29,7 +29,7 @@ LinearMap exact_schur(const SaddlePoint& j) {
 }
 
 LinearMap fsai_direct_schur(const SaddlePoint& j, const FsaiOptions& fsai) {
-  const SparseMatrix g = fsai_factor(j.symmetric_leading(), fsai);
+  const SparseMatrix g = fsai_factor(*j.symmetric_leading(), fsai);
   const SparseMatrix gc = g * j.constraint;
   const SparseMatrix right = j.symmetric ? gc : SparseMatrix(g * j.coupling);
   return direct_solver(SparseMatrix(gc.transpose()) * right, j.symmetric);
@@ -37,7 +37,7 @@ LinearMap fsai_direct_schur(const SaddlePoint& j, const FsaiOptions& fsai) {
 
 /// FSAI needs symmetry, so F is left out of what the second one approximates.
 LinearMap fsai_fsai_schur(const SaddlePoint& j, const FsaiOptions& fsai) {
-  const SparseMatrix gc = fsai_factor(j.symmetric_leading(), fsai) * j.constraint;
+  const SparseMatrix gc = fsai_factor(*j.symmetric_leading(), fsai) * j.constraint;
   const SparseMatrix g = fsai_factor(SparseMatrix(gc.transpose()) * gc, fsai);
   return [g](const VectorXd& r, VectorXd& z) { z = g.transpose() * (g * r); };
 }
@@ -48,7 +48,7 @@ struct LocalStiffness {
   LocalStiffness(const SaddlePoint& j, int first, int last, std::vector<int>& place) {
     for (int k = first; k < last; ++k) {
       for (SparseMatrix::InnerIterator c(j.constraint, k); c; ++c) {
-        for (SparseMatrix::InnerIterator it(j.leading, c.row()); it; ++it) {
+        for (SparseMatrix::InnerIterator it(j.leading(), c.row()); it; ++it) {
           if (place[it.row()] >= 0) continue;
           place[it.row()] = static_cast<int>(dofs.size());
           dofs.push_back(static_cast<int>(it.row()));
@@ -57,7 +57,7 @@ struct LocalStiffness {
     }
     matrix.setZero(dofs.size(), dofs.size());
     for (int column = 0; column < static_cast<int>(dofs.size()); ++column) {
-      for (SparseMatrix::InnerIterator it(j.leading, dofs[column]); it; ++it) {
+      for (SparseMatrix::InnerIterator it(j.leading(), dofs[column]); it; ++it) {
         if (place[it.row()] >= 0) matrix(place[it.row()], column) = it.value();
       }
     }
@@ -107,7 +107,7 @@ LinearMap block_diagonal_schur(const SaddlePoint& j) {
 LinearMap least_squares_commutator(const SaddlePoint& j) {
   const VectorXd inverse_gram = j.gram().cwiseInverse();
   const SparseMatrix product =
-      SparseMatrix(j.constraint.transpose()) * SparseMatrix(j.leading * j.coupling);
+      SparseMatrix(j.constraint.transpose()) * SparseMatrix(j.leading() * j.coupling);
   const SparseMatrix inverse = inverse_gram.asDiagonal() * product * inverse_gram.asDiagonal();
   return [inverse](const VectorXd& r, VectorXd& z) { z = inverse * r; };
 }

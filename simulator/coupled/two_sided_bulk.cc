@@ -1,8 +1,11 @@
 #include "simulator/coupled/two_sided_bulk.h"
 
 #include <Eigen/QR>
+#include <algorithm>
+#include <numeric>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/elasticity/held.h"
 #include "simulator/elasticity/rigid_modes.h"
 
@@ -15,6 +18,34 @@ namespace {
                      concat("at (", x.x(), ", ", x.y(), ", ", x.z(),
                             ") m a condition holds one side of a fault and not the other"),
                      "let it hold both sides, or take the condensed path"}});
+}
+
+/// A symmetric matrix of size n with row and column k of `lower` at place[k], ascending.
+SparseMatrix both_triangles(const SparseMatrix& lower, const std::vector<int>& place, int n) {
+  std::vector<long> next(1 + n, 0);
+  const auto for_each_entry = [&](const auto& visit) {  // (row, column, value), columns ascending
+    for (int column = 0; column < static_cast<int>(lower.cols()); ++column)
+      for (SparseMatrix::InnerIterator it(lower, column); it; ++it)
+        visit(place[it.row()], place[column], it.value());
+  };
+  for_each_entry([&](int i, int j, double) {
+    ++next[1 + j];
+    if (i != j) ++next[1 + i];
+  });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  SparseMatrix whole(n, n);
+  whole.resizeNonZeros(next.back());
+  std::ranges::copy(next, whole.outerIndexPtr());
+  const auto append = [&](int row, int column, double value) {
+    const long at = next[column]++;
+    whole.innerIndexPtr()[at] = row;
+    whole.valuePtr()[at] = value;
+  };
+  for_each_entry([&](int i, int j, double value) {
+    append(i, j, value);
+    if (i != j) append(j, i, value);
+  });
+  return whole;
 }
 
 }  // namespace
@@ -84,30 +115,39 @@ void TwoSidedBulk::find_terms(int n_u) {
                   dofs_->n_unknowns());
 }
 
-/// K of the free dofs, spread over all dofs, with both triangles and identity rows.
+/// K over all dofs: terms of both, and the mean diagonal in prescribed rows.
 void TwoSidedBulk::assemble() {
-  const SparseMatrix lower =
+  SparseMatrix lower =
       assemble_stiffness(problem_.mesh, problem_.materials, *dofs_, problem_.mean_dilatation);
   mean_diagonal_ = lower.diagonal().mean();
-  const int n_u = static_cast<int>(prescribed_.size());
-  std::vector<Eigen::Triplet<double, long>> entries;
-  entries.reserve(2 * lower.nonZeros() + n_u);
-  for (int column = 0; column < lower.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator it(lower, column); it; ++it) {
-      for (const auto& [i, row_factor] : terms(static_cast<int>(it.row()))) {
-        for (const auto& [j, column_factor] : terms(column)) {
-          const double value = row_factor * column_factor * it.value();
-          entries.emplace_back(i, j, value);
-          if (it.row() != column) entries.emplace_back(j, i, value);
-        }
-      }
-    }
-  }
+  const auto n_u = static_cast<int>(prescribed_.size());
+  SparseMatrix fixed(n_u, n_u);
+  fixed.reserve(n_u);
   for (int i = 0; i < n_u; ++i) {
-    if (prescribed_[i]) entries.emplace_back(i, i, mean_diagonal_);
+    fixed.startVec(i);
+    if (prescribed_[i]) fixed.insertBack(i, i) = mean_diagonal_;
   }
-  stiffness_.resize(n_u, n_u);
-  stiffness_.setFromTriplets(entries.begin(), entries.end());
+  fixed.finalize();
+  SparseMatrix free;
+  if (std::ssize(terms_) == dofs_->n_unknowns()) {
+    free = both_triangles(lower, mapped(terms_, &Term::dof), n_u);
+  } else {
+    const SparseMatrix moves = moved_by_dofs();
+    const SparseMatrix whole = lower.selfadjointView<Eigen::Lower>();
+    free = SparseMatrix(moves.transpose()) * SparseMatrix(whole * moves);
+  }
+  lower = SparseMatrix();
+  stiffness_ = free + fixed;
+}
+
+/// Unknowns of dofs_ x dofs.
+SparseMatrix TwoSidedBulk::moved_by_dofs() const {
+  std::vector<Eigen::Triplet<double, long>> entries;
+  for (int unknown = 0; unknown < dofs_->n_unknowns(); ++unknown)
+    for (const Term& term : terms(unknown)) entries.emplace_back(unknown, term.dof, term.factor);
+  SparseMatrix moves(dofs_->n_unknowns(), std::ssize(prescribed_));
+  moves.setFromTriplets(entries.begin(), entries.end());
+  return moves;
 }
 
 void TwoSidedBulk::place_fault_nodes(const DofMap& condensed) {

@@ -82,6 +82,7 @@ class TwoSidedBulk {
   void require_pieces_held() const;
   void find_terms(int n_u);
   void assemble();
+  SparseMatrix moved_by_dofs() const;
   void place_fault_nodes(const DofMap& condensed);
 
   BulkProblem problem_;  ///< without faults in its mesh: all copies of a node are independent.

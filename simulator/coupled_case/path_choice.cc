@@ -10,7 +10,7 @@ std::string gigabytes(double bytes) { return formatted("%.2g GB", bytes / 1e9); 
 }  // namespace
 
 double coupled_bytes(const Plan& plan) {
-  constexpr double kPerUnknown = 18e3;  // 19 GB for 1.06 million
+  constexpr double kPerUnknown = 9e3;  // where faults slip; 6 where all stick
   return kPerUnknown * static_cast<double>(plan.n_unknowns);
 }
 

@@ -1,10 +1,41 @@
 #include "simulator/linalg/gmres.h"
 
 #include <Eigen/Jacobi>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace faultsim {
+namespace {
+
+/// Orthonormal vectors, kept in blocks that are taken as they are needed.
+class GrowingBasis {
+ public:
+  explicit GrowingBasis(Eigen::Index size) : size_(size) {}
+  void append(const Eigen::VectorXd& vector) {
+    const Eigen::Index at = n_++ % kBlock;
+    if (at == 0) blocks_.emplace_back(size_, kBlock);
+    blocks_.back().col(at) = vector;
+  }
+  auto operator[](Eigen::Index j) const { return blocks_[j / kBlock].col(j % kBlock); }
+  /// Σ y_j v_j over the first of them.
+  Eigen::VectorXd combined(const Eigen::VectorXd& y) const {
+    Eigen::VectorXd sum =
+        blocks_[0].leftCols(std::min(y.size(), kBlock)) * y.head(std::min(y.size(), kBlock));
+    for (Eigen::Index first = kBlock; first < y.size(); first += kBlock) {
+      const Eigen::Index n = std::min(y.size() - first, kBlock);
+      sum += blocks_[first / kBlock].leftCols(n) * y.segment(first, n);
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr Eigen::Index kBlock = 128;
+  Eigen::Index size_, n_ = 0;
+  std::vector<Eigen::MatrixXd> blocks_;
+};
+
+}  // namespace
 
 GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
                   const Eigen::VectorXd& b, double tolerance, int max_iterations,
@@ -12,26 +43,27 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
   GmresReport report;
   x.setZero(b.size());
   const double norm = b.norm();
-  if (norm == 0) return {true, 0, 0};
-  Eigen::MatrixXd basis(b.size(), max_iterations + 1);
+  if (norm == 0) return {true, 0, 0, {0}};
+  report.residuals.push_back(1);
+  GrowingBasis basis(b.size());
   Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(max_iterations + 1, max_iterations);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(max_iterations + 1);
   std::vector<Eigen::JacobiRotation<double>> rotations;
   Eigen::VectorXd z(b.size()), w(b.size());
-  basis.col(0) = b / norm;
+  basis.append(b / norm);
   right[0] = norm;
   int j = 0;
   while (j < max_iterations && !report.converged) {
-    w = basis.col(j);
+    w = basis[j];
     precondition(w, z);
     multiply(z, w);
     for (int i = 0; i <= j; ++i) {  // modified Gram-Schmidt
-      hessenberg(i, j) = basis.col(i).dot(w);
-      w -= hessenberg(i, j) * basis.col(i);
+      hessenberg(i, j) = basis[i].dot(w);
+      w -= hessenberg(i, j) * basis[i];
     }
     hessenberg(j + 1, j) = w.norm();
     if (!std::isfinite(hessenberg(j + 1, j))) return report;
-    if (hessenberg(j + 1, j) > 0) basis.col(j + 1) = w / hessenberg(j + 1, j);
+    if (hessenberg(j + 1, j) > 0) basis.append(w / hessenberg(j + 1, j));
     for (int i = 0; i < j; ++i) {
       hessenberg.col(j).applyOnTheLeft(i, i + 1, rotations[i].adjoint());
     }
@@ -42,13 +74,14 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
     rotations.push_back(rotation);
     ++j;
     report.relative_residual = std::abs(right[j]) / norm;
+    report.residuals.push_back(report.relative_residual);
     report.converged = report.relative_residual <= tolerance;
     if (hessenberg(j - 1, j - 1) == 0) return report;
   }
   report.iterations = j;
   const Eigen::VectorXd y =
       hessenberg.topLeftCorner(j, j).triangularView<Eigen::Upper>().solve(right.head(j));
-  w = basis.leftCols(j) * y;
+  w = basis.combined(y);
   precondition(w, x);
   return report;
 }

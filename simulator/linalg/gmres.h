@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <vector>
 
 namespace faultsim {
 
@@ -11,12 +12,13 @@ using LinearMap = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& 
 struct GmresReport {
   bool converged = false;
   int iterations = 0;
-  double relative_residual = 1;  ///< |b − M x| / |b| by the recurrence.
+  double relative_residual = 1;   ///< |b − M x| / |b| by the recurrence.
+  std::vector<double> residuals;  ///< the same after 0, 1, 2 … iterations.
 };
 
 /// Right-preconditioned GMRES without restart (Saad and Schultz, 1986), for a good preconditioner
 /// and few iterations: finds x with |b − M x| ≤ tolerance |b| from x = 0.
-/// @param precondition  P⁻¹.
+/// Keeps a vector of the size of b per iteration that is done. @param precondition  P⁻¹, linear.
 GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
                   const Eigen::VectorXd& b, double tolerance, int max_iterations,
                   Eigen::VectorXd& x);

@@ -49,7 +49,7 @@ struct CoupledExample {
 /// S = Cᵀ (K + E)⁻¹ (C − F) by dense algebra.
 inline Eigen::MatrixXd dense_schur(const SaddlePoint& j) {
   return Eigen::MatrixXd(j.constraint).transpose() *
-         Eigen::MatrixXd(j.leading).partialPivLu().solve(Eigen::MatrixXd(j.coupling));
+         Eigen::MatrixXd(j.leading()).partialPivLu().solve(Eigen::MatrixXd(j.coupling));
 }
 
 /// The matrix of a linear map, column by column.

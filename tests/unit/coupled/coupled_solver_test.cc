@@ -21,7 +21,7 @@ Solved solve(const SaddlePoint& j, const SolverChoice& choice, const Eigen::Vect
   CoupledSolver solver(j, choice);
   solved.report = solver.solve(f, g, tolerance, max_iterations, solved.u, solved.lambda);
   const double scale = solver.multiplier_scale();
-  const Eigen::VectorXd r_u = f - j.leading * solved.u - j.coupling * solved.lambda;
+  const Eigen::VectorXd r_u = f - j.leading() * solved.u - j.coupling * solved.lambda;
   const Eigen::VectorXd r_l = scale * (g - j.constraint.transpose() * solved.u);
   solved.true_residual =
       std::hypot(r_u.norm(), r_l.norm()) / std::hypot(f.norm(), scale * g.norm());
@@ -47,7 +47,7 @@ TEST(CoupledSolver, EveryCombinationFindsTheSameSolution) {
   for (const SaddlePoint& j : example.both()) {
     const Eigen::VectorXd u = Eigen::VectorXd::Random(j.n_displacements()) * 1e-2;
     const Eigen::VectorXd lambda = Eigen::VectorXd::Random(j.n_multipliers()) * 1e6;
-    const Eigen::VectorXd f = j.leading * u + j.coupling * lambda;
+    const Eigen::VectorXd f = j.leading() * u + j.coupling * lambda;
     const Eigen::VectorXd g = j.constraint.transpose() * u;
     for (const LeadingKind leading : enumerators<LeadingKind>()) {
       for (const SchurKind schur : enumerators<SchurKind>()) {

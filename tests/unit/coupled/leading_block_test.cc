@@ -31,14 +31,14 @@ SparseMatrix chain(int n) {
 
 SaddlePoint with_leading(const SparseMatrix& a) {
   SaddlePoint j;
-  j.leading = a;
+  j.set_leading(a);
   j.constraint = j.coupling = SparseMatrix(a.rows(), 0);
   return j;
 }
 
 TEST(Fsai, RowsAreNormalisedAndOrthogonalOnTheirPattern) {
   const CoupledExample example;
-  const SparseMatrix& k = example.stick.leading;
+  const SparseMatrix& k = example.stick.leading();
   const SparseMatrix g = fsai_factor(k, kLeadingFsai);
   const Eigen::SparseMatrix<double, Eigen::RowMajor, long> rows = g;
   long widest = 0;
@@ -63,7 +63,8 @@ TEST(Fsai, RowsAreNormalisedAndOrthogonalOnTheirPattern) {
 TEST(Fsai, GrowsUntilTheToleranceIsMet) {
   const CoupledExample example;
   const auto entries = [&](double tolerance) {
-    return fsai_factor(example.stick.leading, {.steps = 10, .step_size = 1, .tolerance = tolerance})
+    return fsai_factor(example.stick.leading(),
+                       {.steps = 10, .step_size = 1, .tolerance = tolerance})
         .nonZeros();
   };
   EXPECT_EQ(entries(1), example.stick.n_displacements());
@@ -98,7 +99,7 @@ TEST(Fsai, RefusesAMatrixThatIsNotPositiveDefinite) {
 TEST(Fsai, BlockAppliesItsFactors) {
   const CoupledExample example;
   const auto block = leading_block(LeadingKind::fsai, example.stick, kLeadingFsai, {});
-  const SparseMatrix g = fsai_factor(example.stick.leading, kLeadingFsai);
+  const SparseMatrix g = fsai_factor(example.stick.leading(), kLeadingFsai);
   const Eigen::VectorXd r = Eigen::VectorXd::Random(g.rows());
   Eigen::VectorXd z;
   block(r, z);
@@ -111,7 +112,7 @@ TEST(ExactBlock, SolvesWithAndWithoutSymmetry) {
     const auto block = leading_block(LeadingKind::exact, j, {}, {});
     const Eigen::VectorXd u = Eigen::VectorXd::Random(j.n_displacements());
     Eigen::VectorXd z;
-    block(j.leading * u, z);
+    block(j.leading() * u, z);
     EXPECT_LT((z - u).norm(), 1e-9 * u.norm());
   }
 }
@@ -132,7 +133,7 @@ TEST(IncompleteBlocks, AreExactWhereNothingIsDropped) {
   for (const LeadingKind kind : {LeadingKind::incomplete_cholesky, LeadingKind::ilu}) {
     const auto block = leading_block(kind, j, {}, {.drop_tolerance = 0, .max_row = 30});
     EXPECT_LT(
-        (matrix_of(block, 30) * Eigen::MatrixXd(j.leading) - Eigen::MatrixXd::Identity(30, 30))
+        (matrix_of(block, 30) * Eigen::MatrixXd(j.leading()) - Eigen::MatrixXd::Identity(30, 30))
             .norm(),
         1e-9)
         << static_cast<int>(kind);
@@ -146,16 +147,16 @@ Eigen::Vector2d spectrum(LeadingKind kind, const SaddlePoint& j, double symmetry
   const Eigen::MatrixXd inverse = matrix_of(block, j.n_displacements());
   EXPECT_LT((inverse - inverse.transpose()).norm(), symmetry * inverse.norm());
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      (inverse + inverse.transpose()) / 2, Eigen::MatrixXd(j.leading).inverse());
+      (inverse + inverse.transpose()) / 2, Eigen::MatrixXd(j.leading()).inverse());
   return {eigen.eigenvalues().minCoeff(), eigen.eigenvalues().maxCoeff()};
 }
 
 TEST(LeadingBlocks, ArePositiveDefiniteAndBetterThanTheDiagonal) {
   const CoupledExample example;
   const SaddlePoint& j = example.stick;
-  const Eigen::VectorXd root = j.leading.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::VectorXd root = j.leading().diagonal().cwiseSqrt().cwiseInverse();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> jacobi(
-      root.asDiagonal() * Eigen::MatrixXd(j.leading) * root.asDiagonal());
+      root.asDiagonal() * Eigen::MatrixXd(j.leading()) * root.asDiagonal());
   const double plain = jacobi.eigenvalues().maxCoeff() / jacobi.eigenvalues().minCoeff();
   for (const LeadingKind kind : {LeadingKind::fsai, LeadingKind::incomplete_cholesky,
                                  LeadingKind::amg, LeadingKind::amg_by_component}) {

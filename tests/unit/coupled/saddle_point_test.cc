@@ -59,8 +59,8 @@ TEST(SaddlePoint, IsSymmetricWhereAllStick) {
   const SaddlePoint& j = example.stick;
   EXPECT_TRUE(j.symmetric);
   EXPECT_EQ((j.coupling - j.constraint).norm(), 0);
-  const SparseMatrix transposed = j.leading.transpose();
-  EXPECT_EQ((j.leading - transposed).norm(), 0);
+  const SparseMatrix transposed = j.leading().transpose();
+  EXPECT_EQ((j.leading() - transposed).norm(), 0);
 }
 
 TEST(SaddlePoint, RigidMotionsNeedNoForce) {
@@ -252,7 +252,7 @@ TEST(SaddlePoint, EAndFAreTheDerivativesOfTheForceOfASlippingNode) {
     const double du = 1e-6;
     const Eigen::VectorXd step = du * Eigen::VectorXd::Unit(u.size(), dof);
     const Eigen::VectorXd by_u = (force(u + step, normal) - force(u - step, normal)) / (2 * du);
-    const Eigen::VectorXd expected = j.leading.col(dof);
+    const Eigen::VectorXd expected = j.leading().col(dof);
     const Eigen::VectorXd bulk_alone = example.bulk.stiffness().col(dof);
     EXPECT_LT((by_u - expected).norm(), 1e-6 * (expected - bulk_alone).norm()) << dof;
   }

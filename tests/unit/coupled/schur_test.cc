@@ -39,7 +39,7 @@ TEST(Schur, LscIsItsDefinition) {
     const Eigen::MatrixXd c = j.constraint;
     const Eigen::MatrixXd gram = (c.transpose() * c).inverse();
     const Eigen::MatrixXd expected =
-        gram * c.transpose() * Eigen::MatrixXd(j.leading) * Eigen::MatrixXd(j.coupling) * gram;
+        gram * c.transpose() * Eigen::MatrixXd(j.leading()) * Eigen::MatrixXd(j.coupling) * gram;
     EXPECT_LT(relative_difference(inverse_by(SchurKind::lsc, j), expected), 1e-12);
   }
 }
@@ -78,7 +78,7 @@ Eigen::MatrixXd block_from_cells(const CoupledExample& example, const FaultNode&
   const int n = static_cast<int>(list.size());
   Eigen::MatrixXd k(n, n), c(n, last - first), coupling(n, last - first);
   for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) k(a, b) = j.leading.coeff(list[a], list[b]);
+    for (int b = 0; b < n; ++b) k(a, b) = j.leading().coeff(list[a], list[b]);
     for (int m = first; m < last; ++m) {
       c(a, m - first) = j.constraint.coeff(list[a], m);
       coupling(a, m - first) = j.coupling.coeff(list[a], m);
@@ -108,7 +108,7 @@ TEST(Schur, BdsIsItsDefinition) {
 TEST(Schur, FsaiDirectIsItsDefinition) {
   const CoupledExample example;
   for (const SaddlePoint& j : example.both()) {
-    const Eigen::MatrixXd g = fsai_factor(j.symmetric_leading(), kSchurFsai);
+    const Eigen::MatrixXd g = fsai_factor(*j.symmetric_leading(), kSchurFsai);
     const Eigen::MatrixXd s =
         Eigen::MatrixXd(j.constraint).transpose() * g.transpose() * g * Eigen::MatrixXd(j.coupling);
     EXPECT_LT(relative_difference(inverse_by(SchurKind::fsai_direct, j), s.inverse()), 1e-9);
@@ -118,7 +118,7 @@ TEST(Schur, FsaiDirectIsItsDefinition) {
 TEST(Schur, FsaiTwiceIsItsDefinition) {
   const CoupledExample example;
   for (const SaddlePoint& j : example.both()) {
-    const Eigen::MatrixXd gc = Eigen::MatrixXd(fsai_factor(j.symmetric_leading(), kSchurFsai)) *
+    const Eigen::MatrixXd gc = Eigen::MatrixXd(fsai_factor(*j.symmetric_leading(), kSchurFsai)) *
                                Eigen::MatrixXd(j.constraint);
     const SparseMatrix s = Eigen::MatrixXd(gc.transpose() * gc).sparseView();
     const Eigen::MatrixXd g = fsai_factor(s, kSchurFsai);
@@ -134,17 +134,17 @@ TEST(Augmented, IsTheJacobianWithSpringsInSeries) {
     ASSERT_GT(augmented.springs.minCoeff(), 0);
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n_u + n_l, n_u + n_l);
-    whole.topLeftCorner(n_u, n_u) = j.leading;
+    whole.topLeftCorner(n_u, n_u) = j.leading();
     whole.topRightCorner(n_u, n_l) = j.coupling;
     whole.bottomLeftCorner(n_l, n_u) = Eigen::MatrixXd(j.constraint).transpose();
     whole.bottomRightCorner(n_l, n_l).diagonal() = -augmented.springs.cwiseInverse();
     const Eigen::VectorXd u = Eigen::VectorXd::Random(n_u);
-    const Eigen::VectorXd lambda = Eigen::VectorXd::Random(n_l) * j.leading.norm();
+    const Eigen::VectorXd lambda = Eigen::VectorXd::Random(n_l) * j.leading().norm();
     Eigen::VectorXd x(n_u + n_l);
     x << u, lambda;
     const Eigen::VectorXd r = whole * x;
     Eigen::VectorXd found;
-    direct_solver(augmented.regular.leading, j.symmetric)(
+    direct_solver(augmented.regular.leading(), j.symmetric)(
         r.head(n_u) + j.coupling * augmented.springs.cwiseProduct(r.tail(n_l)), found);
     EXPECT_LT((found - u).norm(), 1e-7 * u.norm());
   }
@@ -159,7 +159,7 @@ TEST(Augmented, SpringsAreAsStiffAsTheCellsAtTheNode) {
     double square = 0;
     for (int a = 0; a < c.size(); ++a) {
       for (int b = 0; b < c.size(); ++b) {
-        if (c[a] != 0 && c[b] != 0) square += std::pow(j.leading.coeff(a, b), 2);
+        if (c[a] != 0 && c[b] != 0) square += std::pow(j.leading().coeff(a, b), 2);
       }
     }
     EXPECT_NEAR(augmented.springs[k] * c.squaredNorm() / std::sqrt(square), 1, 1e-12);

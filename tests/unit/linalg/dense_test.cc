@@ -99,6 +99,21 @@ TEST(Gmres, NeedsAsManyIterationsAsTheDifferenceToThePreconditionerHasRank) {
   }
 }
 
+/// A chain of springs: every iteration reaches one further, so the vectors fill more than a block.
+TEST(Gmres, KeepsAsManyVectorsAsItTakes) {
+  const int n = 300;
+  Maps maps{2.01 * Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Identity(n, n)};
+  for (int i = 0; i + 1 < n; ++i) maps.matrix(i, i + 1) = maps.matrix(i + 1, i) = -1;
+  const Eigen::VectorXd b = Eigen::VectorXd::Unit(n, 0);
+  Eigen::VectorXd x;
+  const GmresReport report = gmres(maps.multiply, maps.precondition, b, 1e-9, n, x);
+  EXPECT_TRUE(report.converged);
+  EXPECT_GT(report.iterations, 140);
+  EXPECT_EQ(std::ssize(report.residuals), report.iterations + 1);
+  EXPECT_EQ(report.residuals.back(), report.relative_residual);
+  EXPECT_LT((maps.matrix * x - b).norm(), 2e-9);
+}
+
 TEST(Gmres, SaysWhenItsIterationsDoNotSuffice) {
   const int n = 40;
   Maps maps{random_matrix(n, 1), Eigen::MatrixXd::Identity(n, n)};
