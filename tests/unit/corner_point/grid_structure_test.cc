@@ -137,6 +137,13 @@ TEST(GridStructure, FollowsATaperToItsTip) {
   EXPECT_NEAR(found.left_out[0].largest_offset, 5, 1e-9);
   EXPECT_EQ(found.compartments.size(), 1u);
   EXPECT_THAT(text_of(found), HasSubstr("fault 1 ends in the grid: it does not separate"));
+  // A horizon is known on both sides of the fault, whichever compartment that is.
+  std::vector<double> heights;
+  for (const HorizonPoint& point : found.horizons[0].points) {
+    if (point.pillar == 7 + 21 * 2) heights.push_back(point.position.z());
+  }
+  ASSERT_EQ(heights.size(), 2u);
+  EXPECT_NEAR(std::abs(heights[0] - heights[1]), 40, 1e-9);
   // A lower threshold takes it in.
   EXPECT_EQ(recognise_structure(made(grid), {.least_offset = 1}).faults[0].edges.size(), 12u);
 }
@@ -166,6 +173,40 @@ TEST(GridStructure, FindsWhereAFaultEndsAtAnother) {
   EXPECT_EQ(stem.end.kind, EndKind::grid_edge);
   for (const double offset : stem.offset) EXPECT_NEAR(offset, 20, 1e-9);
   EXPECT_EQ(found.compartments.size(), 3u);
+}
+
+/// An oblique fault that ends at another does so on the other's trace.
+TEST(GridStructure, EndsTheTraceOfAFaultOnThatOfTheOther) {
+  for (const double slope : {0.4, 0.23, -0.3}) {
+    const Eigen::Vector2d begin(705, 655), along(1300, 1300 * slope);
+    const MadeGrid grid{.faults = {{{700, 0}, {700, 1280}, constant(30)},
+                                   {begin - along, begin + along, constant(20), 0}}};
+    const GridStructure found = recognise_structure(made(grid), {});
+    ASSERT_EQ(found.junctions.size(), 1u) << text_of(found);
+    const Eigen::Vector2d at = found.junctions[0].position;
+    EXPECT_NEAR(at.x(), 700, 1e-3);
+    EXPECT_NEAR(at.y(), 655, 60);
+    const Fault& stem = found.faults[static_cast<std::size_t>(found.junctions[0].fault)];
+    EXPECT_EQ(stem.trace.front(), at);
+    for (const Eigen::Vector2d& point : stem.trace)
+      EXPECT_LT(distance_from_line(grid.faults[1], point), 0.5 * stem.cell) << slope;
+  }
+}
+
+TEST(GridStructure, CutsSpursOff) {
+  CornerPointGrid grid = made(with_straight_fault());
+  for (int k = 0; k < 3; ++k) {
+    for (const bool bottom : {false, true})
+      grid.corner_z[grid.corner_index(grid.column(7, 5), k, {false, false, bottom})] -= 12;
+  }
+  const GridStructure found = recognise_structure(grid, {});
+  ASSERT_EQ(found.faults.size(), 1u) << text_of(found);
+  EXPECT_EQ(found.faults[0].edges.size(), 16u);
+  EXPECT_TRUE(found.junctions.empty());
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out[0].reason, LeftOutReason::short_chain);
+  EXPECT_EQ(found.left_out[0].n_edges, 1);
+  EXPECT_NEAR(found.left_out[0].largest_offset, 12, 1e-9);
 }
 
 TEST(GridStructure, FindsWhereFaultsCross) {
@@ -257,8 +298,8 @@ TEST(GridStructure, SaysWhatHasCollapsed) {
   CornerPointGrid squeezed = made(grid);
   for (const bool right : {false, true}) {
     for (const bool back : {false, true}) {
-      squeezed.corner_z[squeezed.corner_index(5, 0, {right, back, false})] =
-          squeezed.z(5, 0, {right, back, true});
+      squeezed.corner_z[squeezed.corner_index(319, 0, {right, back, false})] =
+          squeezed.z(319, 0, {right, back, true});
     }
   }
   const GridStructure found = recognise_structure(squeezed, {});
@@ -398,7 +439,7 @@ TEST(GridStructure, HasCompartmentsByRegionOnRequest) {
   EXPECT_EQ(found.horizons[1].points[0].compartment, 0);
 }
 
-TEST(GridStructure, FindsARing) {
+CornerPointGrid with_a_ring() {
   CornerPointGrid grid = made({});
   for (int j = 5; j < 9; ++j) {
     for (int i = 6; i < 11; ++i) {
@@ -409,7 +450,11 @@ TEST(GridStructure, FindsARing) {
       }
     }
   }
-  const GridStructure found = recognise_structure(grid, {});
+  return grid;
+}
+
+TEST(GridStructure, FindsARing) {
+  const GridStructure found = recognise_structure(with_a_ring(), {});
   ASSERT_EQ(found.faults.size(), 1u) << text_of(found);
   EXPECT_EQ(found.faults[0].edges.size(), 18u);
   EXPECT_EQ(found.faults[0].begin.kind, EndKind::closed);
@@ -417,6 +462,21 @@ TEST(GridStructure, FindsARing) {
   for (const double offset : found.faults[0].offset) EXPECT_NEAR(std::abs(offset), 25, 1e-9);
   ASSERT_EQ(found.compartments.size(), 2u);
   EXPECT_EQ(found.compartments[1].n_columns, 20);
+}
+
+/// A spur that goes straight on where the fault turns does not take its place.
+TEST(GridStructure, CutsSpursOffCorners) {
+  CornerPointGrid grid = with_a_ring();
+  for (int k = 0; k < 3; ++k) {
+    for (const bool bottom : {false, true})
+      grid.corner_z[grid.corner_index(grid.column(5, 5), k, {true, false, bottom})] -= 12;
+  }
+  const GridStructure found = recognise_structure(grid, {});
+  ASSERT_EQ(found.faults.size(), 1u) << text_of(found);
+  EXPECT_EQ(found.faults[0].edges.size(), 18u);
+  EXPECT_EQ(found.faults[0].begin.kind, EndKind::closed);
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out[0].n_edges, 1);
 }
 
 TEST(GridStructure, RefusesOptionsWithAllThatIsWrong) {
