@@ -132,7 +132,7 @@ class EdgeJoiner {
     for (const EdgeChain& branch : branches_) {
       const bool joins = number.contains(branch.pillars.front()) &&
                          number.contains(branch.pillars.back()) && !branch.is_closed();
-      is_link_.push_back(joins && std::ssize(branch.edges) < 2 * fewest_ ? 1 : 0);
+      is_link_.push_back(joins && static_cast<int>(branch.edges.size()) < 2 * fewest_ ? 1 : 0);
       if (is_link_.back() != 0)
         sets.join(number[branch.pillars.front()], number[branch.pillars.back()]);
     }
