@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 ColumnMap::ColumnMap(const CornerPointGrid& grid) : grid_(&grid) {
   double doubled_area = 0;
@@ -130,4 +130,4 @@ FaultEdge ColumnMap::measured(int from, int to) const {
 
 double FaultEdge::largest() const { return std::max(std::abs(least), std::abs(most)); }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -5,7 +5,7 @@
 
 #include "simulator/corner_point/grid_structure.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// The grid as a map: columns, pillars, and the pillar edges between columns.
 ///
@@ -49,4 +49,4 @@ class ColumnMap {
   bool is_left_handed_ = false;  ///< i, j on the map.
 };
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -9,7 +9,7 @@
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/flow/cell_overlap.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 /// Numbers of sets of columns that hang together and no fault separates; one a column.
@@ -110,4 +110,4 @@ Compartments find_compartments(const ColumnMap& map, const std::set<int>& barrie
   return found;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -5,7 +5,7 @@
 
 #include "simulator/corner_point/column_map.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 struct Compartments {
   std::vector<Compartment> all;
@@ -16,4 +16,4 @@ struct Compartments {
 Compartments find_compartments(const ColumnMap& map, const std::set<int>& barriers,
                                CompartmentRule rule);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 namespace {
 
@@ -58,4 +58,4 @@ double CornerPointGrid::largest_thickness(int column, int k) const {
   return largest;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -8,7 +8,7 @@
 
 #include "simulator/flow/eclipse_grid.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// A straight line on which the corners of four columns of cells lie: two different points of it,
 /// m, z up. A pillar whose points lie at one depth has one place in the map for all depths.
@@ -73,4 +73,4 @@ CornerPointGrid corner_point_grid(const EclipseGrid& file, const std::string& so
 /// read_eclipse_grid and the above.
 CornerPointGrid read_corner_point_grid(const std::filesystem::path& path);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

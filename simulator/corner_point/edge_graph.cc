@@ -12,7 +12,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 /// A branch's end at a junction.
@@ -338,4 +338,4 @@ std::vector<std::vector<int>> connected_edges(const std::vector<FaultEdge>& edge
   return all;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

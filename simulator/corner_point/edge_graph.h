@@ -5,7 +5,7 @@
 
 #include "simulator/corner_point/grid_structure.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// Pillar edges one after the other: edges[n] is between pillars[n] and pillars[n + 1].
 struct EdgeChain {
@@ -32,4 +32,4 @@ EdgeChains join_edges(const std::vector<FaultEdge>& edges,
 /// The sets of edges that share pillars.
 std::vector<std::vector<int>> connected_edges(const std::vector<FaultEdge>& edges);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -9,7 +9,7 @@
 
 #include "simulator/corner_point/straight_trace.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 Spread spread_of(std::vector<double> values) {
@@ -143,4 +143,4 @@ Fault described_fault(const ColumnMap& map, const EdgeChain& chain, double refer
   return fault;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -6,7 +6,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/corner_point/edge_graph.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 /// How many edges there are at each pillar.
@@ -73,4 +73,4 @@ SteppingEdges find_stepping_edges(const ColumnMap& map, const StructureOptions& 
   return edges;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

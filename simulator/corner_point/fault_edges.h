@@ -4,7 +4,7 @@
 
 #include "simulator/corner_point/column_map.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// What stands between two active columns and is no less than negligible.
 struct SteppingEdges {
@@ -16,4 +16,4 @@ struct SteppingEdges {
 
 SteppingEdges find_stepping_edges(const ColumnMap& map, const StructureOptions& options);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

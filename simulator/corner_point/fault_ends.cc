@@ -9,7 +9,7 @@
 #include "simulator/corner_point/fault_description.h"
 #include "simulator/corner_point/straight_trace.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 /// A fault at a pillar, which is its nth.
@@ -218,4 +218,4 @@ void extend_tips(const ColumnMap& map, std::vector<Fault>& faults, double refere
   }
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

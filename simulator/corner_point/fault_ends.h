@@ -4,7 +4,7 @@
 
 #include "simulator/corner_point/column_map.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// Fills in how the faults end, and finds where they meet. The end of a trace at another fault is
 /// moved along its last piece onto the other's trace. Places along the traces and lengths are
@@ -16,4 +16,4 @@ std::vector<Junction> meet_faults(const ColumnMap& map, std::vector<Fault>& faul
 /// @param reference_z  of the traces.
 void extend_tips(const ColumnMap& map, std::vector<Fault>& faults, double reference_z);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -6,7 +6,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/corner_point/corner_point_grid.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 constexpr std::array<CornerPlace, 4> kMapCorners = {
@@ -246,4 +246,4 @@ CornerPointGrid read_corner_point_grid(const std::filesystem::path& path) {
   return corner_point_grid(read_eclipse_grid(path), path.filename().string());
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -15,7 +15,7 @@
 #include "simulator/corner_point/horizons.h"
 #include "simulator/corner_point/structure_report.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 void check_options(const CornerPointGrid& grid, const StructureOptions& options) {
@@ -178,4 +178,4 @@ GridStructure recognise_structure(const CornerPointGrid& grid, const StructureOp
   return StructureFinder(grid, options).find();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -15,7 +15,7 @@
 /// corners do not meet on the shared pillars, there is a fault: pillar edges of enough offset are
 /// joined to chains, and each chain that is long enough is a fault. Left and right are those of
 /// someone who looks along the fault from its first pillar to its last.
-namespace faultsim {
+namespace faultsim::corner_point {
 
 enum class CompartmentRule {
   faults,               ///< the parts of the active map that faults separate.
@@ -203,4 +203,4 @@ struct GridStructure {
 /// regions that the grid has not.
 GridStructure recognise_structure(const CornerPointGrid& grid, const StructureOptions& options);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 constexpr std::array<CornerPlace, 4> kCorners = {
@@ -145,4 +145,4 @@ std::vector<Layer> find_layers(const ColumnMap& map, double no_thickness) {
   return layers;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

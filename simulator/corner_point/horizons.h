@@ -5,7 +5,7 @@
 
 #include "simulator/corner_point/column_map.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 struct Horizons {
   std::vector<Horizon> all;  ///< from the top down.
@@ -23,4 +23,4 @@ Horizons find_horizons(const ColumnMap& map, const std::set<int>& barriers,
 /// What the layers are like.
 std::vector<Layer> find_layers(const ColumnMap& map, double no_thickness);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

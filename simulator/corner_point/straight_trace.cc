@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 /// Pieces between knots, fitted to the middles of a chain's edges.
@@ -187,4 +187,4 @@ std::vector<Eigen::Vector2d> middles_of(const std::vector<Eigen::Vector2d>& poin
   return middles;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// The line of fewest pieces, near to fewest, from which no middle of a chain's edges is farther
 /// than a tolerance.
@@ -40,4 +40,4 @@ inline double cross_product(const Eigen::Vector2d& a, const Eigen::Vector2d& b) 
   return a.x() * b.y() - a.y() * b.x();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -7,7 +7,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 std::string metres(double value) { return formatted("%.6g m", value); }
@@ -242,4 +242,4 @@ std::vector<StructureRemark> structure_report(const CornerPointGrid& grid,
   return ReportWriter(grid, structure, options).write();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -4,7 +4,7 @@
 
 #include "simulator/common/text.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 const char* word_of(RemarkKind kind) {
@@ -82,4 +82,4 @@ std::string offsets_csv(const GridStructure& structure) {
   return text;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

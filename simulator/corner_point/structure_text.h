@@ -4,7 +4,7 @@
 
 #include "simulator/corner_point/grid_structure.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// The report as plain text: a sentence a line, then a table of faults and one of compartments.
 std::string structure_text(const GridStructure& structure);
@@ -16,4 +16,4 @@ std::string traces_csv(const GridStructure& structure);
 /// is lower).
 std::string offsets_csv(const GridStructure& structure);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -11,7 +11,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/corner_point/grid_structure.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 using testing::HasSubstr;
@@ -205,4 +205,4 @@ TEST(CornerPointGrid, IsRefusedWhereCellsAreInsideOut) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

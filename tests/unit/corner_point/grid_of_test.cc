@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 Eigen::Vector2d pillar_at(const MadeGrid& grid, double i, double j) {
@@ -92,4 +92,4 @@ double distance_from(const MadeFault& fault, const Eigen::Vector2d& at) {
   return (at - fault.from - s * along).norm();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -6,7 +6,7 @@
 
 #include "simulator/corner_point/corner_point_grid.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 
 /// A fault of a grid that a test makes: a straight line on the map along which the columns to its
 /// right are lower.
@@ -25,7 +25,7 @@ struct MadeGrid {
   std::vector<double> thickness = {10, 20, 15};
   std::vector<MadeFault> faults = {};
   std::vector<std::array<int, 3>> inactive = {};  ///< i, j, k; k < 0: the column.
-  bool is_left_handed = false;               ///< y falls with j.
+  bool is_left_handed = false;                    ///< y falls with j.
 };
 
 /// The height of the grid's top before faults, m.
@@ -37,4 +37,4 @@ EclipseGrid as_file(const CornerPointGrid& grid, double metre);
 double distance_from_line(const MadeFault& fault, const Eigen::Vector2d& at);
 double distance_from(const MadeFault& fault, const Eigen::Vector2d& at);
 
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -11,7 +11,7 @@
 #include "grid_of_test.h"
 #include "simulator/common/errors.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 using testing::HasSubstr;
@@ -498,4 +498,4 @@ TEST(GridStructure, RefusesOptionsWithAllThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

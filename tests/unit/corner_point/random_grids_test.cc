@@ -15,7 +15,7 @@
 #include "grid_of_test.h"
 #include "simulator/corner_point/grid_structure.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 using Columns = std::set<std::pair<int, int>>;  ///< pairs of columns, the smaller first.
@@ -246,4 +246,4 @@ TEST(RandomGrids, TracesLieOnTheLinesThatFaultsWereMadeOn) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::corner_point

@@ -5,7 +5,7 @@
 
 #include "grid_of_test.h"
 
-namespace faultsim {
+namespace faultsim::corner_point {
 namespace {
 
 using testing::HasSubstr;
@@ -41,4 +41,4 @@ TEST(StructureText, HasTracesAndOffsetsAsTables) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::corner_point
