@@ -1,0 +1,92 @@
+#include "simulator/horizons/body_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace faultsim {
+namespace {
+
+class NumberCheck {
+ public:
+  explicit NumberCheck(std::vector<Problem>& problems) : problems_(problems) {}
+
+  void demand(bool holds, const std::string& pointer, const std::string& what,
+              const std::string& cure) {
+    if (!holds) problems_.push_back({pointer, 0, what, cure});
+  }
+
+ private:
+  std::vector<Problem>& problems_;
+};
+
+void check_box(const LayeredBody& body, NumberCheck& check) {
+  const bool is_box = (body.high - body.low).minCoeff() > 0 && body.top > body.base &&
+                      body.low.allFinite() && body.high.allFinite() &&
+                      std::isfinite(body.top - body.base);
+  check.demand(is_box, "/box", "the box has no volume",
+               "give low x, y and base below high and top");
+  check.demand(body.layers.size() == body.horizons.size() + 1, "/layers",
+               concat(counted(body.horizons.size(), "horizon bounds ", "horizons bound "),
+                      body.horizons.size() + 1, " layers, not ", body.layers.size()),
+               "give one layer more than horizons");
+  const BodyCells& cells = body.cells;
+  check.demand(cells.at_faults > 0 && cells.far >= cells.at_faults && cells.growth > 0 &&
+                   std::isfinite(cells.far),
+               "/cells", "sizes of cells make no sense",
+               "give 0 < at_faults <= far, and a growth above 0");
+}
+
+void check_dip(const LayeredFault& fault, const std::string& pointer, NumberCheck& check) {
+  const std::string name = "\"" + fault.name + "\"";
+  if (fault.listric.empty()) {
+    constexpr double kLeast = 5 * std::numbers::pi / 180;
+    check.demand(fault.dip >= kLeast && fault.dip <= std::numbers::pi / 2, pointer + "/dip",
+                 concat(name, " dips by ", fault.dip * 180 / std::numbers::pi, " degrees"),
+                 "give 5 to 90 degrees, and the side that it dips to");
+    return;
+  }
+  std::vector<DipPoint> points = fault.listric;
+  std::ranges::sort(points, {}, &DipPoint::z);
+  bool is_profile = points.size() >= 2;
+  for (std::size_t k = 0; k + 1 < points.size(); ++k)
+    is_profile =
+        is_profile && points[k].z < points[k + 1].z && points[k].shift >= points[k + 1].shift;
+  check.demand(is_profile, pointer + "/listric",
+               concat("the profile of ", name, " is no line that goes down and on"),
+               "give two points or more, each at a depth of its own, the shift growing downwards");
+}
+
+void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::string& pointer,
+                 NumberCheck& check) {
+  const std::string name = "\"" + fault.name + "\"";
+  check_dip(fault, pointer, check);
+  const double top = fault.top.value_or(body.top), bottom = fault.bottom.value_or(body.base);
+  check.demand(top <= body.top && bottom >= body.base && top - bottom > body.cells.at_faults,
+               pointer, concat(name, " reaches from z ", bottom, " to z ", top, " m"),
+               "give a top above its bottom by more than a cell, within the box");
+  const FaultThrow& moved = fault.moved;
+  check.demand(
+      std::isfinite(moved.down) && moved.footwall_share >= 0 && moved.footwall_share <= 1 &&
+          moved.reach > 0 && !(moved.taper < 0),
+      pointer + "/throw", concat("the throw of ", name, " makes no sense"),
+      "give metres, a footwall's share in [0, 1], a reach above 0 and a taper of 0 or more");
+}
+
+}  // namespace
+
+void check_numbers(const LayeredBody& body, std::vector<Problem>& problems) {
+  NumberCheck check(problems);
+  check_box(body, check);
+  for (std::size_t f = 0; f < body.faults.size(); ++f)
+    check_fault(body, body.faults[f], concat("/faults/", f), check);
+  for (std::size_t c = 0; c < body.compartments.size(); ++c)
+    check.demand(body.compartments[c].region.size() == body.layers.size(),
+                 concat("/compartments/", c, "/region"),
+                 concat("\"", body.compartments[c].name, "\" has ",
+                        counted(body.compartments[c].region.size(), "region", "regions"), " for ",
+                        counted(body.layers.size(), "layer", "layers")),
+                 "give one per layer, -1 for none");
+}
+
+}  // namespace faultsim

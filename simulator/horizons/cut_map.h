@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "simulator/horizons/map_mesh.h"
+
+namespace faultsim {
+
+/// The map cut along the faults' traces: a vertex has one place per sector of triangles that are
+/// connected around it without crossing a trace. A tip has one, a T three, an X four.
+struct CutMap {
+  std::vector<int> vertex;                 ///< per place.
+  std::vector<std::array<int, 3>> places;  ///< per triangle, of its corners.
+  std::vector<std::vector<int>> at;        ///< per vertex its places, ascending.
+
+  std::size_t n_places() const { return vertex.size(); }
+};
+
+CutMap cut_map(const MapMesh& map);
+
+/// A piece of a fault's trace between two neighbours along it.
+struct TracePiece {
+  int fault;
+  std::size_t k;  ///< from lines[fault][k] to the next.
+  const MapSide* side;
+};
+
+/// All pieces of all faults' traces. The sides must outlive them.
+std::vector<TracePiece> trace_pieces(const MapMesh& map, const std::vector<MapSide>& sides);
+
+/// Per triangle the compartment it belongs to, or −1: filled from the point inside of each, up to
+/// faults, dividers and the box. Points outside of the map, and two in one part of it, are appended
+/// to problems.
+std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compartment>& compartments,
+                                   std::vector<Problem>& problems);
+
+}  // namespace faultsim

@@ -1,0 +1,142 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+/// A body of rock as geologists have it: horizons over the map, faults as traces with a dip, and
+/// the throw of each. Lengths in m, angles in rad, z up (negative below the surface), x and y in
+/// the map.
+namespace faultsim {
+
+/// The same depth everywhere.
+struct ConstantDepth {
+  double z;
+};
+
+/// z + slope · ((x, y) − at).
+struct PlaneDepth {
+  double z;
+  Eigen::Vector2d at = Eigen::Vector2d::Zero();
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< dz/dx, dz/dy.
+};
+
+/// Depths at the points of a grid; bilinear between, those of the edge outside.
+struct GridDepth {
+  Eigen::Vector2d origin;   ///< of the first value.
+  Eigen::Vector2d spacing;  ///< > 0.
+  int nx, ny;               ///< points, >= 1.
+  std::vector<double> z;    ///< nx * ny, those of the first y first.
+};
+
+/// Depths at scattered points: linear on their Delaunay triangulation, and outside of it as at the
+/// nearest place of its edge. Points at one place must agree. One point is a constant; points on
+/// one line are linear along it and constant across.
+struct PointDepth {
+  std::vector<Eigen::Vector3d> points;
+};
+
+using DepthOverMap = std::variant<ConstantDepth, PlaneDepth, GridDepth, PointDepth>;
+
+/// A surface between two layers.
+struct Horizon {
+  std::string name;
+  DepthOverMap depth;
+};
+
+/// The rock between two horizons.
+struct BodyLayer {
+  int material = 0;
+  /// Depths of the layer count as those of a reservoir: beside faults cells are small there, though
+  /// no compartment has a region in it.
+  bool is_fine = false;
+};
+
+/// A part of the map that faults and dividers bound (and the box), with a region in some layers.
+struct Compartment {
+  std::string name;
+  Eigen::Vector2d inside;   ///< a point of it, at the depth of traces.
+  std::vector<int> region;  ///< per layer, pressure region or −1.
+};
+
+/// A line in the map that separates compartments and is no fault: a fault's continuation, say. The
+/// rock goes through it.
+struct Divider {
+  std::string name;
+  std::vector<Eigen::Vector2d> line;
+};
+
+/// Where an end of a trace lies.
+enum class TraceEnd {
+  in_rock,   ///< the fault ends there, with a tip.
+  at_edge,   ///< on a side of the box.
+  at_fault,  ///< on the trace of another one, which goes on (T).
+};
+
+/// Which side of a trace, seen along it, the fault dips to: there is its hanging wall.
+enum class DipSide { left, right };
+
+/// How far a curved fault has gone towards its hanging wall at a depth.
+struct DipPoint {
+  double z;
+  double shift;  ///< m, towards the hanging wall; falls as z grows.
+};
+
+/// How far the hanging wall has moved down along a fault (negative: up).
+///
+/// The shift of a horizon is −throw · (1 − footwall_share) on the hanging wall and throw ·
+/// footwall_share on the footwall, all along the trace, but over `taper` from an end in the rock,
+/// where both fall linearly to zero. Away from the fault the shift fades as u − reach² ∇²u = 0
+/// does, without crossing other faults; with an infinite reach a part of the map that faults cut
+/// off moves as a whole. Where a fault ends in depth the shift of a horizon falls linearly to zero
+/// over the last 2 |throw| of it.
+struct FaultThrow {
+  double down = 0;
+  double footwall_share = 0.5;                              ///< [0, 1].
+  double reach = std::numeric_limits<double>::infinity();   ///< m, > 0.
+  double taper = std::numeric_limits<double>::quiet_NaN();  ///< m; NaN: a quarter of the trace.
+};
+
+/// A fault, by its trace at the depth of traces.
+struct LayeredFault {
+  std::string name;
+  std::vector<Eigen::Vector2d> trace;  ///< >= 2 points.
+  TraceEnd first_end = TraceEnd::in_rock;
+  TraceEnd last_end = TraceEnd::in_rock;
+  DipSide dips_to = DipSide::right;
+  double dip = std::numbers::pi / 2;  ///< from the horizontal, (0, π/2].
+  std::vector<DipPoint> listric;      ///< from top to bottom or back; empty: `dip` holds.
+  std::optional<double> top;          ///< where it ends upwards; empty: at the top of the box.
+  std::optional<double> bottom;       ///< where it ends downwards; empty: at the base.
+  FaultThrow moved;
+};
+
+/// Sizes of cells, m: at the faults `at_faults` and beside them `growth` per metre more, up to
+/// `far`; beside faults the same above and below the reservoir layers.
+struct BodyCells {
+  double at_faults = 50;
+  double far = 1000;
+  double growth = 0.2;
+};
+
+/// What a body is built of. Horizons go from top to bottom; layer k is above horizon k, the last
+/// one below the last horizon. Faults stand in order of priority: where two cross, the first goes
+/// on.
+struct LayeredBody {
+  Eigen::Vector2d low, high;  ///< of the box in the map.
+  double top = 0;             ///< z of its plane top.
+  double base = 0;            ///< z of its plane base, below all horizons.
+  double trace_depth = 0;     ///< z at which traces, compartments and dividers are drawn.
+  std::vector<Horizon> horizons;
+  std::vector<BodyLayer> layers;  ///< horizons + 1.
+  std::vector<Compartment> compartments;
+  std::vector<Divider> dividers;
+  std::vector<LayeredFault> faults;
+  BodyCells cells;
+};
+
+}  // namespace faultsim

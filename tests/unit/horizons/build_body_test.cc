@@ -1,0 +1,296 @@
+#include "simulator/horizons/build_body.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <map>
+#include <numeric>
+
+#include "simulator/horizons/tet_quality.h"
+#include "tests/unit/horizons/bodies.h"
+
+namespace faultsim {
+namespace {
+
+using Eigen::Vector3d;
+using test::dipping_fault;
+using test::kDegree;
+using test::refusal_of;
+using test::reservoir_body;
+using testing::HasSubstr;
+
+/// Volumes by layer and by side of x = 0 at z = -2000 of a plane that dips by 60 degrees.
+struct SideVolumes {
+  std::map<std::pair<int, bool>, double> of;
+
+  explicit SideVolumes(const BuiltBody& built) {
+    const UncutMesh& mesh = built.mesh;
+    for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+      const auto x = [&](std::size_t v) { return mesh.nodes[mesh.corners[4 * cell + v]]; };
+      const double volume = (x(1) - x(0)).cross(x(2) - x(0)).dot(x(3) - x(0)) / 6;
+      const Vector3d middle = (x(0) + x(1) + x(2) + x(3)) / 4;
+      const bool hangs = middle.x() > (-2000 - middle.z()) / std::tan(60 * kDegree);
+      of[{built.layer[cell], hangs}] += volume;
+    }
+  }
+};
+
+/// Of the footwall between two depths.
+double footwall_volume(double low, double high) {
+  const double middle = (low + high) / 2;
+  return (high - low) * 4000 * (3000 + (-2000 - middle) / std::tan(60 * kDegree));
+}
+
+double area_of(const UncutMesh& mesh, const FacetGroup& group) {
+  double area = 0;
+  for (const std::array<int, 4>& f : group.facets)
+    area +=
+        (mesh.nodes[f[1]] - mesh.nodes[f[0]]).cross(mesh.nodes[f[2]] - mesh.nodes[f[0]]).norm() / 2;
+  return area;
+}
+
+std::size_t n_faces(const Mesh& mesh) {
+  return std::accumulate(mesh.faults.begin(), mesh.faults.end(), std::size_t{0},
+                         [](std::size_t n, const FaultSurface& f) { return n + f.faces.size(); });
+}
+
+std::size_t n_facets(const UncutMesh& mesh) {
+  return std::accumulate(mesh.faults.begin(), mesh.faults.end(), std::size_t{0},
+                         [](std::size_t n, const FacetGroup& f) { return n + f.facets.size(); });
+}
+
+TEST(BuildBody, WithoutFaultsIsLayers) {
+  const BuiltBody built = build_body(reservoir_body(), "body");
+  const SideVolumes volumes(built);
+  const auto layer = [&](int k) { return volumes.of.at({k, false}) + volumes.of.at({k, true}); };
+  EXPECT_NEAR(layer(0), 1900 * 24e6, 1);
+  EXPECT_NEAR(layer(1), 200 * 24e6, 1);
+  EXPECT_NEAR(layer(2), 1900 * 24e6, 1);
+  EXPECT_EQ(built.n_extra_nodes, 0u);
+  const Mesh mesh = cut(built.mesh, "body");
+  EXPECT_EQ(check_quality(mesh).refusal, "");
+}
+
+TEST(BuildBody, ADippingFaultWithThrowIsExact) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].moved = {100};
+  body.compartments = {{"west", {-1000, 0}, {-1, 0, -1}}, {"east", {1000, 0}, {-1, 1, -1}}};
+  const BuiltBody built = build_body(body, "body");
+  const SideVolumes volumes(built);
+  const double all = footwall_volume(-4000, 0);
+  EXPECT_NEAR(volumes.of.at({1, false}), footwall_volume(-2050, -1850), 1) << "50 m up";
+  EXPECT_NEAR(volumes.of.at({0, false}), footwall_volume(-1850, 0), 1);
+  EXPECT_NEAR(volumes.of.at({2, false}), all - footwall_volume(-2050, 0), 1);
+  EXPECT_NEAR(volumes.of.at({1, true}), 24e6 * 200 - footwall_volume(-2150, -1950), 1);
+  EXPECT_NEAR(volumes.of.at({0, true}), 24e6 * 1950 - footwall_volume(-1950, 0), 1);
+  const UncutMesh& mesh = built.mesh;
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    EXPECT_EQ(mesh.material[cell], built.layer[cell]);
+    EXPECT_EQ(mesh.region[cell], built.layer[cell] == 1 ? built.compartment[cell] : -1);
+    EXPECT_EQ(mesh.region_fraction[cell], mesh.region[cell] < 0 ? 0 : 1);
+  }
+  EXPECT_GT(built.smallest_sicn, 0.1);
+}
+
+TEST(BuildBody, ADippingFaultIsCutAllOver) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].moved = {100};
+  const BuiltBody built = build_body(body, "body");
+  const Mesh mesh = cut(built.mesh, "body");
+  ASSERT_EQ(mesh.faults.size(), 1u);
+  EXPECT_EQ(mesh.faults[0].faces.size(), built.mesh.faults[0].facets.size());
+  EXPECT_EQ(std::ranges::count(mesh.faults[0].node_of_point, -1), 0);
+  double area = 0;
+  for (const FaultNode& node : mesh.faults[0].nodes) {
+    area += node.area;
+    EXPECT_LT((node.normal - Vector3d(std::sin(60 * kDegree), 0, std::cos(60 * kDegree))).norm(),
+              1e-9);
+  }
+  EXPECT_NEAR(area, 4000 * 4000 / std::sin(60 * kDegree), 1e-3);
+  EXPECT_EQ(check_quality(mesh).refusal, "");
+}
+
+TEST(BuildBody, TheOutsideIsSixPlanes) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  const UncutMesh mesh = build_body(body, "body").mesh;
+  const std::vector<double> areas = {16e6, 16e6, 24e6, 24e6, 24e6, 24e6};
+  const std::vector<double> planes = {-3000, 3000, -2000, 2000, -4000, 0};
+  ASSERT_EQ(mesh.boundary.size(), 6u);
+  for (std::size_t side = 0; side < 6; ++side) {
+    EXPECT_NEAR(area_of(mesh, mesh.boundary[side]), areas[side], 1e-3) << mesh.boundary[side].name;
+    for (const std::array<int, 4>& facet : mesh.boundary[side].facets)
+      for (std::size_t v = 0; v < 3; ++v)
+        EXPECT_NEAR(mesh.nodes[facet[v]][static_cast<Eigen::Index>(side / 2)], planes[side], 1e-9);
+  }
+}
+
+TEST(BuildBody, AFaultInTheRockHasATipAllAround) {
+  LayeredBody body = reservoir_body();
+  LayeredFault fault = dipping_fault();
+  fault.trace = {{0, -1000}, {0, 1000}};
+  fault.first_end = fault.last_end = TraceEnd::in_rock;
+  fault.top = -1500;
+  fault.bottom = -2500;
+  fault.moved = {80, 0.5, 600};
+  body.faults = {fault};
+  const BuiltBody built = build_body(body, "body");
+  EXPECT_NEAR(area_of(built.mesh, built.mesh.faults[0]), 2000 * 1000 / std::sin(60 * kDegree),
+              1e-3);
+  const Mesh mesh = cut(built.mesh, "body");
+  const FaultSurface& surface = mesh.faults[0];
+  for (std::size_t p = 0; p < surface.points.size(); ++p) {
+    const Vector3d& at = surface.points[p];
+    const bool is_tip = std::abs(at.y()) > 999.999 || at.z() > -1500.001 || at.z() < -2499.999;
+    EXPECT_EQ(surface.node_of_point[p] < 0, is_tip) << at.transpose();
+  }
+}
+
+/// Depth of the top of layer 1 beside the fault, by side, over y.
+std::map<bool, std::map<double, double>> horizon_beside(const BuiltBody& built) {
+  std::map<int, int> sides;  // node of the fault -> which sides have it at the top of layer 1
+  std::map<std::pair<int, bool>, std::array<bool, 2>> touches;
+  const UncutMesh& mesh = built.mesh;
+  std::vector<bool> on_fault(mesh.nodes.size(), false);
+  for (const std::array<int, 4>& facet : mesh.faults[0].facets)
+    for (std::size_t v = 0; v < 3; ++v) on_fault[facet[v]] = true;
+  for (std::size_t cell = 0; cell < mesh.n_cells(); ++cell) {
+    Vector3d middle = Vector3d::Zero();
+    for (std::size_t v = 0; v < 4; ++v) middle += mesh.nodes[mesh.corners[4 * cell + v]] / 4;
+    const bool hangs = middle.x() > (-2000 - middle.z()) / std::tan(60 * kDegree);
+    for (std::size_t v = 0; v < 4; ++v)
+      if (on_fault[mesh.corners[4 * cell + v]] && built.layer[cell] < 2)
+        touches[{mesh.corners[4 * cell + v], hangs}][built.layer[cell]] = true;
+  }
+  std::map<bool, std::map<double, double>> depth;
+  for (const auto& [key, layers] : touches)
+    if (layers[0] && layers[1])
+      depth[key.second][std::round(mesh.nodes[key.first].y())] = mesh.nodes[key.first].z();
+  return depth;
+}
+
+TEST(BuildBody, ThrowTapersToATip) {
+  LayeredBody body = reservoir_body();
+  LayeredFault fault = dipping_fault();
+  fault.trace = {{0, -2000}, {0, 1000}};
+  fault.last_end = TraceEnd::in_rock;
+  fault.moved = {100, 0.25, 600, 1000};
+  body.faults = {fault};
+  const auto depth = horizon_beside(build_body(body, "body"));
+  ASSERT_GT(depth.at(true).size(), 10u);
+  for (const auto& [y, foot] : depth.at(false)) {
+    const double part = std::min(1.0, (1000 - y) / 1000), hanging = depth.at(true).at(y);
+    if (100 * part < 0.12 * 200) {
+      EXPECT_EQ(foot, hanging) << "joined at y " << y;
+      continue;
+    }
+    EXPECT_NEAR(foot, -1900 + 25 * part, 1e-6) << "at y " << y;
+    EXPECT_NEAR(hanging, -1900 - 75 * part, 1e-6) << "at y " << y;
+  }
+}
+
+TEST(BuildBody, ReservoirsSideBySideAreJoinedWhereLinesCross) {
+  LayeredBody body = reservoir_body();
+  LayeredFault fault = dipping_fault();
+  fault.trace = {{0, -2000}, {0, 1500}};
+  fault.last_end = TraceEnd::in_rock;
+  fault.moved = {450, 0.5, 900, 3000};  // the top of one side meets the bottom of the other
+  body.faults = {fault};
+  const BuiltBody built = build_body(body, "body");
+  const Mesh mesh = cut(built.mesh, "body");
+  EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
+  EXPECT_GT(built.smallest_sicn, 0.05);
+}
+
+TEST(BuildBody, ATIsFoundByCut) {
+  LayeredBody body = reservoir_body();
+  LayeredFault branch = dipping_fault();
+  branch.name = "B";
+  branch.trace = {{0, -300}, {1500, 400}};
+  branch.first_end = TraceEnd::at_fault;
+  branch.last_end = TraceEnd::in_rock;
+  branch.dip = 70 * kDegree;
+  branch.top = -1500;
+  branch.bottom = -2600;
+  branch.moved = {60, 0.5, 600};
+  body.faults = {dipping_fault(), branch};
+  body.faults[0].moved = {100};
+  const BuiltBody built = build_body(body, "body");
+  const Mesh mesh = cut(built.mesh, "body");
+  EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
+  std::map<int, int> copies;
+  for (const NodeCopy& copy : mesh.copies) ++copies[copy.first];
+  int n_three = 0;
+  for (const auto& [first, n] : copies) n_three += n == 3;
+  EXPECT_GT(n_three, 5);
+  for (const auto& [first, n] : copies) EXPECT_LE(n, 3);
+}
+
+TEST(BuildBody, AnXIsFoundByCut) {
+  LayeredBody body = reservoir_body();
+  LayeredFault crossing = dipping_fault();
+  crossing.name = "X";
+  crossing.trace = {{-1300, -400}, {1400, 300}};
+  crossing.first_end = crossing.last_end = TraceEnd::in_rock;
+  crossing.dip = 75 * kDegree;
+  crossing.top = -1500;
+  crossing.bottom = -2600;
+  body.faults = {dipping_fault(), crossing};
+  body.faults[0].moved = {100};
+  const BuiltBody built = build_body(body, "body");
+  const Mesh mesh = cut(built.mesh, "body");
+  EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
+  std::map<int, int> copies;
+  for (const NodeCopy& copy : mesh.copies) ++copies[copy.first];
+  int n_four = 0;
+  for (const auto& [first, n] : copies) n_four += n == 4;
+  EXPECT_GT(n_four, 5);
+}
+
+TEST(BuildBody, HorizonsThatCrossAreRefusedWithPlace) {
+  LayeredBody body = reservoir_body();
+  body.horizons[0].depth = PlaneDepth{-1900, {0, 0}, {0.1, 0}};
+  EXPECT_THAT(
+      refusal_of(body),
+      HasSubstr("/horizons/1: \"top\" and \"bottom\" touch or cross, worst by 100 m at x -3000"));
+  body.horizons[0].depth = ConstantDepth{10};
+  EXPECT_THAT(refusal_of(body), HasSubstr("the top of the box and \"top\" touch or cross"));
+  body.horizons[0].depth = ConstantDepth{-1900};
+  body.horizons[1].depth = ConstantDepth{-4000};
+  EXPECT_THAT(refusal_of(body), HasSubstr("\"bottom\" and the base of the box touch or cross"));
+}
+
+TEST(BuildBody, AllNumbersThatMakeNoSenseAreToldAtOnce) {
+  LayeredBody body = reservoir_body();
+  body.layers.pop_back();
+  body.cells.far = 10;
+  body.faults = {dipping_fault()};
+  body.faults[0].dip = 91 * kDegree;
+  body.faults[0].bottom = -5000;
+  body.faults[0].moved.reach = 0;
+  body.compartments = {{"west", {0, 0}, {1}}};
+  const std::string said = refusal_of(body);
+  for (const char* what :
+       {"horizons bound 3 layers, not 2", "sizes of cells", "dips by 91 degrees",
+        "reaches from z -5000", "the throw of \"F\"", "has 1 region for 2 layers"})
+    EXPECT_THAT(said, HasSubstr(what));
+  body.faults[0].listric = {{-1000, 100}, {-2000, 0}};
+  EXPECT_THAT(refusal_of(body), HasSubstr("is no line that goes down and on"));
+}
+
+TEST(TetQuality, IsOneOfARegularAndSignedOfATurnedOne) {
+  const Vector3d a(0, 0, 0), b(2, 0, 0), c(1, std::sqrt(3.0), 0),
+      d(1, 1 / std::sqrt(3.0), std::sqrt(8.0 / 3));
+  EXPECT_NEAR(scaled_inverse_condition({a, b, c, d}), 1, 1e-12);
+  EXPECT_NEAR(scaled_inverse_condition({a, c, b, d}), -1, 1e-12);
+  EXPECT_EQ(scaled_inverse_condition({a, b, c, a}), 0);
+  // Flat by half: A = diag(1, 1, 1/2), |A| |A⁻¹| = 3/2 · √6.
+  const Vector3d half(d.x(), d.y(), d.z() / 2);
+  EXPECT_NEAR(scaled_inverse_condition({a, b, c, half}), 2 / std::sqrt(6.0), 1e-12);
+}
+
+}  // namespace
+}  // namespace faultsim

@@ -1,0 +1,134 @@
+#include "simulator/horizons/pillars.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/unit/horizons/bodies.h"
+
+namespace faultsim {
+namespace {
+
+using Eigen::Vector2d;
+using test::dipping_fault;
+using test::kDegree;
+using test::reservoir_body;
+using testing::HasSubstr;
+
+struct MadePillars {
+  LayeredBody body;
+  MapMesh map;
+  Pillars pillars;
+
+  explicit MadePillars(const LayeredBody& from)
+      : body(from), map(meshed(body)), pillars(body, map) {}
+  static MapMesh meshed(const LayeredBody& body) {
+    std::vector<Problem> problems;
+    const MapLines lines = meeting_lines(body, problems);
+    MapMesh mesh = mesh_map(body, lines, problems);
+    for (const Problem& one : problems) ADD_FAILURE() << one.pointer << ": " << one.what;
+    return mesh;
+  }
+  std::vector<Problem> problems() const {
+    std::vector<Problem> found;
+    check_pillars(body, map, pillars, found);
+    return found;
+  }
+};
+
+LayeredFault oblique_branch() {
+  LayeredFault fault = dipping_fault();
+  fault.name = "B";
+  fault.trace = {{0, -300}, {1500, 700}};
+  fault.first_end = TraceEnd::at_fault;
+  fault.last_end = TraceEnd::in_rock;
+  fault.dip = 70 * kDegree;
+  fault.dips_to = DipSide::left;
+  fault.top = -1000;
+  fault.bottom = -3000;
+  return fault;
+}
+
+TEST(FaultShift, APlaneGoesToItsHangingWallDownwards) {
+  LayeredFault fault = dipping_fault();
+  fault.top = -1000;
+  fault.bottom = -3000;
+  const FaultShift shift(fault, 0, -4000, -2000);
+  EXPECT_NEAR(shift.at(-2000), 0, 1e-9);
+  EXPECT_NEAR(shift.at(-2500), 500 / std::tan(60 * kDegree), 1e-9);
+  EXPECT_EQ(shift.at(-3000), shift.at(-4000)) << "straight down below its end";
+  EXPECT_NEAR(shift.at(0), -1000 / std::tan(60 * kDegree), 1e-9);
+}
+
+TEST(FaultShift, AListricProfileIsTakenRelativeToTheDepthOfTraces) {
+  LayeredFault fault = dipping_fault();
+  fault.listric = {{-1000, 5}, {-2000, 105}, {-3000, 405}};
+  const FaultShift shift(fault, 0, -4000, -2500);
+  EXPECT_NEAR(shift.at(-2500), 0, 1e-9);
+  EXPECT_NEAR(shift.at(-1000), -250, 1e-9);
+  EXPECT_NEAR(shift.at(-3000), 150, 1e-9);
+  EXPECT_NEAR(shift.at(-4000), 450, 1e-9) << "goes on as its last piece";
+}
+
+TEST(Pillars, OfAPlaneFaultStayOnItsPlane) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault(), oblique_branch()};
+  // The T slides 2,000 / tan(80°) / sin(56°) = 424 m along a branch of 1,803 m: room for pillars.
+  body.faults[0].dip = 80 * kDegree;
+  const MadePillars made(body);
+  for (const Problem& one : made.problems()) ADD_FAILURE() << one.what;
+  const Vector2d n = Vector2d(-1000, 1500).normalized();  // of B, to its left
+  for (const double z : {-4000., -2700., -2000., -1100., 0.}) {
+    const double first = (-2000 - z) / std::tan(80 * kDegree);
+    for (const int v : made.map.lines[0]) EXPECT_NEAR(made.pillars.in_map(v, z).x(), first, 1e-6);
+    const double second = (-2000 - std::clamp(z, -3000., -1000.)) / std::tan(70 * kDegree);
+    for (const int v : made.map.lines[1])
+      EXPECT_NEAR((made.pillars.in_map(v, z) - Vector2d(0, -300)).dot(n), second, 1e-6)
+          << "the T slides along both";
+  }
+}
+
+TEST(Pillars, OfSidesStayInThem) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{0, -2000}, {500, 2000}};
+  const MadePillars made(body);
+  for (std::size_t v = 0; v < made.map.vertices.size(); ++v)
+    for (int axis = 0; axis < 2; ++axis)
+      for (const double side : {body.low[axis], body.high[axis]}) {
+        if (made.map.vertices[v][axis] != side) continue;
+        for (const double z : {-4000., -1000.})
+          EXPECT_NEAR(made.pillars.in_map(static_cast<int>(v), z)[axis], side, 1e-9);
+      }
+}
+
+TEST(Pillars, ThatCrossAreRefusedWithPlace) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].dip = 30 * kDegree;
+  const std::vector<Problem> problems = MadePillars(body).problems();
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/faults/0");
+  EXPECT_THAT(problems[0].what, HasSubstr("pillars cross beside \"F\", worst at x "));
+}
+
+TEST(Pillars, FaultsThatLeaveTheBoxOrCutEachOtherInDepthAreRefused) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{2000, -1000}, {2000, 1000}};
+  body.faults[0].first_end = body.faults[0].last_end = TraceEnd::in_rock;
+  std::vector<Problem> problems;
+  check_faults_in_depth(body, MadePillars::meshed(body), problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].what, HasSubstr("\"F\" leaves the box at x 3154.7"));
+  body.faults = {dipping_fault(), dipping_fault()};
+  body.faults[1].name = "G";
+  body.faults[1].trace = {{800, -2000}, {800, 2000}};
+  body.faults[1].dips_to = DipSide::left;
+  problems.clear();
+  check_faults_in_depth(body, MadePillars::meshed(body), problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].what, HasSubstr("\"G\" and \"F\" cut each other in depth, at x "));
+}
+
+}  // namespace
+}  // namespace faultsim

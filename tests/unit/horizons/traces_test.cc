@@ -1,0 +1,118 @@
+#include "simulator/horizons/traces.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "tests/unit/horizons/bodies.h"
+
+namespace faultsim {
+namespace {
+
+using Eigen::Vector2d;
+using test::dipping_fault;
+using test::reservoir_body;
+using testing::Contains;
+using testing::HasSubstr;
+
+LayeredFault branch(const Vector2d& from, const Vector2d& to) {
+  LayeredFault fault;
+  fault.name = "B";
+  fault.trace = {from, to};
+  fault.first_end = TraceEnd::at_fault;
+  return fault;
+}
+
+MapLines joined(const LayeredBody& body) {
+  std::vector<Problem> problems;
+  MapLines lines = meeting_lines(body, problems);
+  for (const Problem& one : problems) ADD_FAILURE() << one.pointer << ": " << one.what;
+  return lines;
+}
+
+std::string refusal(const LayeredBody& body) {
+  std::vector<Problem> problems;
+  meeting_lines(body, problems);
+  return problems.empty() ? "" : problems.front().pointer + ": " + problems.front().what;
+}
+
+TEST(Traces, PointsAreACellApart) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{100, -1950}, {0, 0}, {0, 1900}};
+  const MapLine line = joined(body).lines[0];
+  EXPECT_EQ(line.points.front(), Vector2d(100, -2000)) << "pulled to the edge";
+  EXPECT_EQ(line.points.back(), Vector2d(0, 2000));
+  EXPECT_THAT(line.points, Contains(Vector2d(0, 0)).Times(0)) << "bends by 3 degrees";
+  ASSERT_EQ(line.points.size(), 21u);
+  for (std::size_t k = 1; k < line.points.size(); ++k)
+    EXPECT_NEAR((line.points[k] - line.points[k - 1]).norm(), 200, 2);
+}
+
+TEST(Traces, ABendStays) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{500, -2000}, {0, 130}, {0, 2000}};
+  EXPECT_THAT(joined(body).lines[0].points, Contains(Vector2d(0, 130)));
+}
+
+TEST(Traces, AnEndAtAFaultIsAPointOfBoth) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault(), branch({-60, 310}, {1500, 400})};
+  const MapLines lines = joined(body);
+  EXPECT_EQ(lines.lines[1].points.front(), Vector2d(0, 310));
+  EXPECT_THAT(lines.lines[0].points, Contains(Vector2d(0, 310)));
+}
+
+TEST(Traces, CrossingFaultsShareAPoint) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault(), branch({-1500, -300}, {1500, 700})};
+  body.faults[1].first_end = TraceEnd::in_rock;
+  const MapLines lines = joined(body);
+  int n_shared = 0;
+  for (const Vector2d& p : lines.lines[0].points)
+    n_shared += static_cast<int>(std::ranges::count(lines.lines[1].points, p));
+  EXPECT_EQ(n_shared, 1);
+}
+
+TEST(Traces, WhatDoesNotFitIsRefusedWithItsPlace) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace.back() = {0, 2500};
+  EXPECT_THAT(refusal(body),
+              HasSubstr("/faults/0/trace: the trace of \"F\" leaves the box at x 0, y 2500"));
+  body.faults[0].trace.back() = {0, 1500};
+  EXPECT_THAT(refusal(body), HasSubstr("ends 500 m before it, at x 0, y 1500 m"));
+  body.faults[0].trace = {{1, 1}, {1, 1}};
+  EXPECT_THAT(refusal(body), HasSubstr("has no length"));
+  body.faults = {dipping_fault(), branch({400, 300}, {1500, 300})};
+  EXPECT_THAT(refusal(body), HasSubstr("/faults/1/trace: \"B\" is to end at another fault and ends "
+                                       "at x 400, y 300 m, near none"));
+  body.faults[1] = branch({0, 300}, {1500, 1000});
+  body.faults[1].trace.back() = {300, 1900};
+  EXPECT_THAT(refusal(body), HasSubstr("meets \"F\" at 11 degrees at x 0, y 300 m"));
+  body.faults[1] = branch({60, 300}, {1500, 300});
+  body.faults[1].first_end = TraceEnd::in_rock;
+  EXPECT_THAT(refusal(body),
+              HasSubstr("ends in the rock at x 60, y 300 m, less than half a cell from \"F\""));
+  body.faults[1] = branch({0, 300}, {1500, 1950});
+  EXPECT_THAT(refusal(body), HasSubstr("half a cell from the edge"));
+}
+
+TEST(Traces, TwoThatEndAtEachOtherAreAV) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault(), branch({0, 500}, {1500, 500})};
+  body.faults[0].trace.back() = {0, 550};
+  body.faults[0].last_end = TraceEnd::in_rock;
+  EXPECT_THAT(refusal(body), HasSubstr("end at each other at x 0, y 500 m (a V)"));
+}
+
+TEST(Traces, MeetingsCloserThanHalfACellAreRefused) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault(), branch({0, 300}, {1500, 300}), branch({0, 380}, {-1500, 380})};
+  EXPECT_THAT(refusal(body), HasSubstr("meets two others within half a cell at x 0, y 300 m"));
+}
+
+}  // namespace
+}  // namespace faultsim
