@@ -60,7 +60,7 @@ FineReach NodePlacer::reach_at(int vertex) const {
   return reach;
 }
 
-/// Appends points up to `to`, at distances in proportion to sizes.
+/// Appends points up to `to`, at distances in proportion to sizes and at most 1.2 of them.
 void NodePlacer::fill(std::vector<double>& z, double to, double size,
                       const FineReach& reach) const {
   constexpr std::size_t kSteps = 64;
@@ -70,7 +70,8 @@ void NodePlacer::fill(std::vector<double>& z, double to, double size,
     const double away = reach.away(from + step * (static_cast<double>(i) + 0.5));
     cells[i + 1] = cells[i] + step / std::min(body_.cells.far, size + body_.cells.growth * away);
   }
-  const int n = std::max(1, static_cast<int>(std::lround(cells.back())));
+  constexpr double kTallest = 1.2;  // of a size: tall steps beside leaning pillars are steep
+  const int n = std::max(1, static_cast<int>(std::ceil(cells.back() / kTallest)));
   std::size_t i = 0;
   for (int k = 1; k < n; ++k) {
     const double want = cells.back() * k / n;
