@@ -193,16 +193,20 @@ TEST(BuildBody, ThrowTapersToATip) {
 }
 
 TEST(BuildBody, ReservoirsSideBySideAreJoinedWhereLinesCross) {
-  LayeredBody body = reservoir_body();
-  LayeredFault fault = dipping_fault();
-  fault.trace = {{0, -2000}, {0, 1500}};
-  fault.last_end = TraceEnd::in_rock;
-  fault.moved = {450, 0.5, 900, 3000};  // the top of one side meets the bottom of the other
-  body.faults = {fault};
-  const BuiltBody built = build_body(body, "body");
-  const Mesh mesh = cut(built.mesh, "body");
-  EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
-  EXPECT_GT(built.smallest_sicn, 0.05);
+  // The top of one side meets the bottom of the other near a pillar, or half way between two.
+  for (const double taper : {3000., 1000.}) {
+    LayeredBody body = reservoir_body();
+    LayeredFault fault = dipping_fault();
+    fault.trace = {{0, -2000}, {0, 1500}};
+    fault.last_end = TraceEnd::in_rock;
+    fault.moved = {450, 0.5, 900, taper};
+    body.faults = {fault};
+    const BuiltBody built = build_body(body, "body");
+    const Mesh mesh = cut(built.mesh, "body");
+    EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
+    EXPECT_GT(built.n_snapped, 0);
+    EXPECT_GT(built.smallest_sicn, 0.05);
+  }
 }
 
 TEST(BuildBody, ATIsFoundByCut) {

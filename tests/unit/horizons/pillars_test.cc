@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "tests/unit/horizons/bodies.h"
 
 namespace faultsim {
@@ -85,6 +88,25 @@ TEST(Pillars, OfAPlaneFaultStayOnItsPlane) {
       EXPECT_NEAR((made.pillars.in_map(v, z) - Vector2d(0, -300)).dot(n), second, 1e-6)
           << "the T slides along both";
   }
+}
+
+TEST(Pillars, BothPiecesOfABendMoveAlike) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{1000, -2000}, {0, 0}, {1000, 2000}};
+  body.faults[0].dip = 80 * kDegree;
+  const MadePillars made(body);
+  const std::vector<int>& line = made.map.lines[0];
+  const auto bend =
+      std::ranges::find_if(line, [&](int v) { return made.map.vertices[v].norm() < 1e-9; });
+  ASSERT_NE(bend, line.end());
+  const std::vector<Vector2d> along = hanging_directions(body.faults[0], made.map, 0);
+  const Vector2d at_bend = along[static_cast<std::size_t>(bend - line.begin())];
+  EXPECT_NEAR(at_bend.dot(Vector2d(2000, 1000).normalized()), 1, 1e-9);
+  EXPECT_NEAR(at_bend.dot(Vector2d(2000, -1000).normalized()), 1, 1e-9);
+  // Traces run at 2 in 1: the corner moves by 1 / cos 26.6° = √5 / 2.
+  EXPECT_NEAR(made.pillars.in_map(*bend, -3000).x(),
+              1000 / std::tan(80 * kDegree) * std::sqrt(5.0) / 2, 1e-6);
 }
 
 TEST(Pillars, OfSidesStayInThem) {

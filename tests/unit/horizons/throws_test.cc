@@ -1,0 +1,49 @@
+#include "simulator/horizons/throws.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/unit/horizons/bodies.h"
+
+namespace faultsim {
+namespace {
+
+using test::dipping_fault;
+using test::reservoir_body;
+
+TEST(Throws, FadeWithTheirReach) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].moved = {100, 0.25, 800};
+  std::vector<Problem> problems;
+  const MapMesh map = mesh_map(body, meeting_lines(body, problems), problems);
+  ASSERT_TRUE(problems.empty());
+  const CutMap cut = cut_map(map);
+  const Eigen::MatrixXd up = throw_fields(body, map, cut);
+  for (std::size_t t = 0; t < cut.places.size(); ++t) {
+    double middle = 0;
+    for (const int v : map.triangles[t]) middle += map.vertices[v].x() / 3;
+    for (std::size_t v = 0; v < 3; ++v) {
+      // u − reach² u'' = 0 between the fault and the side of the box, where u' = 0.
+      const double away = std::abs(map.vertices[map.triangles[t][v]].x());
+      const double part = std::cosh((3000 - away) / 800) / std::cosh(3000. / 800);
+      EXPECT_NEAR(up(cut.places[t][v], 0), part * (middle > 0 ? -75 : 25), 2) << "at x " << away;
+    }
+  }
+}
+
+TEST(Throws, FallToNothingAtEndsInDepth) {
+  LayeredFault fault = dipping_fault();
+  fault.moved = {100};
+  EXPECT_EQ(throw_in_depth(fault, -5000), 1);
+  fault.top = -1000;
+  fault.bottom = -3000;
+  EXPECT_EQ(throw_in_depth(fault, -2000), 1);
+  EXPECT_NEAR(throw_in_depth(fault, -1050), 0.25, 1e-12) << "over 2 |throw|";
+  EXPECT_NEAR(throw_in_depth(fault, -2900), 0.5, 1e-12);
+  EXPECT_EQ(throw_in_depth(fault, -900), 0);
+}
+
+}  // namespace
+}  // namespace faultsim
