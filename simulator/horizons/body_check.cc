@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 class NumberCheck {
@@ -89,4 +89,4 @@ void check_numbers(const LayeredBody& body, std::vector<Problem>& problems) {
                  "give one per layer, -1 for none");
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -5,9 +5,9 @@
 #include "simulator/common/errors.h"
 #include "simulator/horizons/layered_body.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// Numbers of a body that make no sense by themselves are appended to problems.
 void check_numbers(const LayeredBody& body, std::vector<Problem>& problems);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

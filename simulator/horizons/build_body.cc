@@ -8,7 +8,7 @@
 #include "simulator/horizons/columns.h"
 #include "simulator/horizons/tet_quality.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector3d;
@@ -181,4 +181,4 @@ BuiltBody build_body(const LayeredBody& body, const std::string& source) {
   return built;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

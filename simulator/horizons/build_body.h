@@ -7,7 +7,7 @@
 #include "simulator/horizons/layered_body.h"
 #include "simulator/mesh/uncut_mesh.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// What there is to know about a body that has been built.
 struct BuiltBody {
@@ -31,4 +31,4 @@ struct BuiltBody {
 /// @param source  what the message is about: a file's name.
 BuiltBody build_body(const LayeredBody& body, const std::string& source);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -5,7 +5,7 @@
 
 #include "simulator/common/errors.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector3d;
@@ -148,4 +148,4 @@ Columns fill_columns(const MapMesh& map, const CutMap& cut, const std::vector<Ma
   return columns;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

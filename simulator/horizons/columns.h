@@ -4,7 +4,7 @@
 
 #include "simulator/horizons/ladders.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// The tetrahedra over triangles of the map.
 struct Columns {
@@ -22,4 +22,4 @@ Columns fill_columns(const MapMesh& map, const CutMap& cut, const std::vector<Ma
                      const PillarNodes& nodes, const std::vector<Ladder>& ladders,
                      const std::vector<Eigen::Vector3d>& positions);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

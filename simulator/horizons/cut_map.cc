@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 /// Sets that grow together.
@@ -130,4 +130,4 @@ std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compart
   return filled;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

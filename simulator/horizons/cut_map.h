@@ -5,7 +5,7 @@
 
 #include "simulator/horizons/map_mesh.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// The map cut along the faults' traces: a vertex has one place per sector of triangles that are
 /// connected around it without crossing a trace. A tip has one, a T three, an X four.
@@ -35,4 +35,4 @@ std::vector<TracePiece> trace_pieces(const MapMesh& map, const std::vector<MapSi
 std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compartment>& compartments,
                                    std::vector<Problem>& problems);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

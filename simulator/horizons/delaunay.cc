@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -65,4 +65,4 @@ Triangles delaunay(const std::vector<Vector2d>& points) {
   return triangles;
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// Triangles of a plane or of a map: corners counter-clockwise.
 using Triangles = std::vector<std::array<int, 3>>;
@@ -20,4 +20,4 @@ inline double cross_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -198,4 +198,4 @@ double DepthSurface::at(const Vector2d& place) const {
                     depth_);
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -9,7 +9,7 @@
 #include "simulator/horizons/delaunay.h"
 #include "simulator/horizons/layered_body.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// Scattered depths, ready to be looked up.
 class PointSurface {
@@ -46,4 +46,4 @@ class DepthSurface {
   std::shared_ptr<const PointSurface> scattered_;
 };
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -7,7 +7,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/horizons/map_operator.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -119,4 +119,4 @@ std::vector<double> order_of_pillars(const LayeredBody& body, const MapMesh& map
   return {potential.begin(), potential.end()};
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 
 #include "simulator/horizons/pillar_nodes.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// The wall between two neighbouring pillars as triangles from the base to the top: which of both
 /// ends, a (0) or b (1) of the side, goes up to its next node.
@@ -25,4 +25,4 @@ std::vector<Ladder> make_ladders(const MapMesh& map, const CutMap& cut,
 std::vector<double> order_of_pillars(const LayeredBody& body, const MapMesh& map,
                                      const Pillars& pillars);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -11,7 +11,7 @@
 /// A body of rock as geologists have it: horizons over the map, faults as traces with a dip, and
 /// the throw of each. Lengths in m, angles in rad, z up (negative below the surface), x and y in
 /// the map.
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// The same depth everywhere.
 struct ConstantDepth {
@@ -139,4 +139,4 @@ struct LayeredBody {
   BodyCells cells;
 };
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 #include "simulator/horizons/snapping.h"
 #include "simulator/horizons/throws.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::MatrixXd;
@@ -155,4 +155,4 @@ Levels find_levels(const LayeredBody& body, const MapMesh& map, const CutMap& cu
   return LevelFinder(body, map, cut, pillars, horizons, problems).run();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 #include "simulator/horizons/depth_surface.h"
 #include "simulator/horizons/pillars.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// Depths on pillars that cells must keep.
 struct Levels {
@@ -27,4 +27,4 @@ Levels find_levels(const LayeredBody& body, const MapMesh& map, const CutMap& cu
                    const Pillars& pillars, const std::vector<DepthSurface>& horizons,
                    std::vector<Problem>& problems);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

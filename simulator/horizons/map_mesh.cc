@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -326,4 +326,4 @@ MapMesh mesh_map(const LayeredBody& body, const MapLines& lines, std::vector<Pro
   return MapMesher(body, lines, problems).run();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -8,7 +8,7 @@
 #include "simulator/horizons/layered_body.h"
 #include "simulator/horizons/traces.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// The map in triangles, at the depth of traces. Lines are sides of triangles all along.
 struct MapMesh {
@@ -35,4 +35,4 @@ const MapSide* find_side(const std::vector<MapSide>& sides, int a, int b);
 /// appended to problems. Equal input gives equal meshes.
 MapMesh mesh_map(const LayeredBody& body, const MapLines& lines, std::vector<Problem>& problems);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

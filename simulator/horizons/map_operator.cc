@@ -4,7 +4,7 @@
 
 #include "simulator/common/errors.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 using Eigen::Vector2d;
 using Eigen::VectorXd;
@@ -74,4 +74,4 @@ VectorXd solve_potential(const MapOperator& op, const VectorXd& right) {
   return factor.solve(right);
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -4,7 +4,7 @@
 
 #include "simulator/horizons/delaunay.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// Integrals of linear hats over triangles of the plane.
 struct MapOperator {
@@ -24,4 +24,4 @@ Eigen::VectorXd fill_between(const MapOperator& op, const Eigen::VectorXd& extra
 /// A u with K u = right, 0 at the first unknown. @pre the sum of right is 0.
 Eigen::VectorXd solve_potential(const MapOperator& op, const Eigen::VectorXd& right);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 
 #include "simulator/common/ranges.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 constexpr double kEndApart = 0.3;  // of a cell
@@ -163,4 +163,4 @@ int layer_above(const std::vector<int>& horizon_rank, int rank) {
       std::ranges::count_if(horizon_rank, [&](int horizon) { return horizon > rank; }));
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -4,7 +4,7 @@
 
 #include "simulator/horizons/levels.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// The nodes on pillars: levels, the depths at which faults end on pillars beside them too (0.3 of
 /// a cell or more from horizons), and points between that make cells as large as they should be.
@@ -23,4 +23,4 @@ PillarNodes nodes_on_pillars(const LayeredBody& body, const MapMesh& map, const 
 /// @param horizon_rank  of the place.
 int layer_above(const std::vector<int>& horizon_rank, int rank);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -10,7 +10,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/horizons/map_operator.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::MatrixXd;
@@ -332,4 +332,4 @@ void check_pillars(const LayeredBody& body, const MapMesh& map, const Pillars& p
                       "draw its end further from others and from the edge of the box"});
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/horizons/map_mesh.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// How far a fault has gone towards its hanging wall since the depth of traces, along z: linear
 /// between points, constant above its top and below its bottom.
@@ -54,4 +54,4 @@ void check_faults_in_depth(const LayeredBody& body, const MapMesh& map,
 void check_pillars(const LayeredBody& body, const MapMesh& map, const Pillars& pillars,
                    std::vector<Problem>& problems);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 constexpr double kSnap = 0.12;  // of a cell
@@ -171,4 +171,4 @@ void snap_levels(const LayeredBody& body, const MapMesh& map, const CutMap& cut,
   Snapper(body, map, cut, levels).run(problems);
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

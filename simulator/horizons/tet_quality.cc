@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 double scaled_inverse_condition(const std::array<Eigen::Vector3d, 4>& corners) {
   Eigen::Matrix3d own, regular;
@@ -24,4 +24,4 @@ double scaled_inverse_condition(const std::array<Eigen::Vector3d, 4>& corners) {
   return 3 * det / (map.norm() * adjugate.norm());
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -5,7 +5,7 @@
 
 #include "simulator/horizons/map_operator.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::MatrixXd;
@@ -94,4 +94,4 @@ double throw_in_depth(const LayeredFault& fault, double z) {
   return std::clamp(inside / over, 0.0, 1.0);
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

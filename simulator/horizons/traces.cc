@@ -9,7 +9,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/horizons/delaunay.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -375,4 +375,4 @@ MapLines meeting_lines(const LayeredBody& body, std::vector<Problem>& problems) 
   return LineJoiner(body, problems).run();
 }
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

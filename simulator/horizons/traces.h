@@ -7,7 +7,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/horizons/layered_body.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 
 /// A line of the map by its points. Where lines meet, both have exactly the same point.
 struct MapLine {
@@ -47,4 +47,4 @@ NearestOnLine nearest_on_line(const std::vector<Eigen::Vector2d>& line,
 Eigen::Vector2d crossing_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                             const Eigen::Vector2d& c, const Eigen::Vector2d& d);
 
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -10,7 +10,7 @@
 #include "simulator/horizons/build_body.h"
 
 /// Layered bodies to build in tests.
-namespace faultsim::test {
+namespace faultsim::horizons::test {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
@@ -124,4 +124,4 @@ inline std::string refusal_of(const LayeredBody& body) {
   return "";
 }
 
-}  // namespace faultsim::test
+}  // namespace faultsim::horizons::test

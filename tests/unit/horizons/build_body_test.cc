@@ -10,7 +10,7 @@
 #include "simulator/horizons/tet_quality.h"
 #include "tests/unit/horizons/bodies.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector3d;
@@ -297,4 +297,4 @@ TEST(TetQuality, IsOneOfARegularAndSignedOfATurnedOne) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons

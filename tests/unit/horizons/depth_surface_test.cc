@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -112,4 +112,4 @@ TEST(Delaunay, CirclesOfTrianglesAreEmptyAndTheHullIsFull) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 #include "simulator/horizons/cut_map.h"
 #include "tests/unit/horizons/bodies.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -122,4 +122,4 @@ TEST(Compartments, AreFilledUpToFaultsAndDividers) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -8,7 +8,7 @@
 
 #include "tests/unit/horizons/bodies.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -153,4 +153,4 @@ TEST(Pillars, FaultsThatLeaveTheBoxOrCutEachOtherInDepthAreRefused) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons

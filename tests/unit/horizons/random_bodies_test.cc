@@ -7,7 +7,7 @@
 
 #include "tests/unit/horizons/bodies.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 struct Tally {
@@ -62,4 +62,4 @@ TEST(RandomBodies, SlowOfAHundredThousandCells) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons

@@ -6,7 +6,7 @@
 
 #include "tests/unit/horizons/bodies.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using test::dipping_fault;
@@ -46,4 +46,4 @@ TEST(Throws, FallToNothingAtEndsInDepth) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons

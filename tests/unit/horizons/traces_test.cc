@@ -7,7 +7,7 @@
 
 #include "tests/unit/horizons/bodies.h"
 
-namespace faultsim {
+namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
@@ -115,4 +115,4 @@ TEST(Traces, MeetingsCloserThanHalfACellAreRefused) {
 }
 
 }  // namespace
-}  // namespace faultsim
+}  // namespace faultsim::horizons
