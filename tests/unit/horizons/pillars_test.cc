@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/horizons/ladders.h"
 #include "tests/unit/horizons/bodies.h"
 
 namespace faultsim::horizons {
@@ -121,6 +122,38 @@ TEST(Pillars, OfSidesStayInThem) {
         for (const double z : {-4000., -1000.})
           EXPECT_NEAR(made.pillars.in_map(static_cast<int>(v), z)[axis], side, 1e-9);
       }
+}
+
+TEST(Ladders, TakeTheShorterDiagonalOfLeaningWalls) {
+  LayeredBody body = reservoir_body();
+  body.horizons.clear();
+  body.layers = {{0}};
+  body.faults = {dipping_fault()};
+  const MadePillars made(body);
+  std::vector<Problem> problems;
+  const CutMap cut = cut_map(made.map);
+  const Levels levels = find_levels(body, made.map, cut, made.pillars, {}, problems);
+  const PillarNodes nodes = nodes_on_pillars(body, made.map, cut, levels);
+  const std::vector<MapSide> sides = sides_of(made.map.triangles);
+  const std::vector<Ladder> ladders =
+      make_ladders(made.map, cut, sides, nodes, order_of_pillars(body, made.map, made.pillars));
+  int n = 0, n_longer = 0;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    const std::vector<double>&za = nodes.z[sides[s].a], &zb = nodes.z[sides[s].b];
+    if (za.size() != zb.size()) continue;
+    for (std::size_t k = 0; k + 1 < za.size(); ++k) {
+      const auto length = [&](std::size_t on_a, std::size_t on_b) {
+        return (made.pillars.at(sides[s].a, za[on_a]) - made.pillars.at(sides[s].b, zb[on_b]))
+            .norm();
+      };
+      const double a_first = length(k + 1, k), b_first = length(k, k + 1);
+      if (std::abs(a_first - b_first) < 0.05 * a_first) continue;  // along the fault
+      ++n;
+      n_longer += (ladders[s][2 * k] == 0) != (a_first < b_first);
+    }
+  }
+  EXPECT_GT(n, 100) << "walls leave a choice";
+  EXPECT_LT(n_longer, n / 20) << "of " << n;
 }
 
 TEST(Pillars, ThatCrossAreRefusedWithPlace) {
