@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,28 +11,31 @@
 #include <vector>
 
 #include "simulator/common/dates.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/table_reader.h"
-#include "simulator/flow/regular_cells.h"
+#include "simulator/common/text.h"
+#include "simulator/flow/point_cells.h"
 
 namespace faultsim {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<const char*, 6> kPlaces{"x", "y", "depth", "dx", "dy", "dz"};
-constexpr std::size_t kDepth = 2, kFirstSize = 3;  // in kPlaces
 
-using Place = std::array<double, 6>;  ///< as kPlaces, m; 0 where there is no such column.
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
 
 class FlowTable {
  public:
-  FlowTable(const std::string& text, const std::string& given, FlowQuantity quantity)
+  FlowTable(std::string_view text, const std::string& given, FlowQuantity quantity)
       : reader_(text, given), is_pressure_(quantity == FlowQuantity::pressure) {
     const std::string unit = is_pressure_ ? " [bar]" : " [degC]";
     header_cure_ =
         "head the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then "
         "1990-01-01" +
-        unit + " and so on, or begin with date and end with " + name_of_value() + unit +
-        "; depth and sizes may be left out of regular grids";
+        unit + " and so on, or give a column date and one of " + name_of_value() + unit +
+        "; depth and sizes may be left out (docs/your-field.md)";
   }
 
   FlowField read() {
@@ -40,6 +44,7 @@ class FlowTable {
     while (reader_.next_row()) row();
     reader_.require_rows(header_cure_);
     require_every_cell();
+    require_depths();
     FlowField field;
     if (reader_.is_sound()) field = result();
     reader_.require_sound();
@@ -52,74 +57,148 @@ class FlowTable {
   void header() {
     const std::vector<TableColumn>& columns = reader_.columns();
     if (!reader_.has_header(header_cure_)) return;
-    is_long_ = columns[0].text == "date";
-    for (first_value_ = is_long_ ? 1 : 0; first_value_ < columns.size(); ++first_value_) {
-      const std::string& name = columns[first_value_].name;
-      const auto place = std::ranges::find(kPlaces, name);
-      if (place == kPlaces.end()) break;
-      const auto k = static_cast<std::size_t>(place - kPlaces.begin());
-      if (column_[k]) reader_.refuse("there are two columns " + name, "remove one of the two");
-      column_[k] = first_value_;
-      reader_.set_unit(first_value_, Dimension::length, k < kFirstSize ? kLengthRange : kSizeRange,
-                       header_cure_);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::string name = lower_case(columns[i].name);
+      if (!date_column_ && (name == "date" || name == "time")) date_column_ = i;
     }
+    if (date_column_ && columns[*date_column_].unit) {
+      reader_.refuse(
+          table_quote(columns[*date_column_].text) + " counts from a day that is not said",
+          "write dates, in a column date without a unit: 1990-01-31");
+    }
+    if (date_column_)
+      long_header();
+    else
+      wide_header();
     for (const std::size_t k : {0, 1}) {
       if (!column_[k])
-        reader_.refuse(concat("there is no column ", kPlaces[k], " before the values"),
+        reader_.refuse(concat("there is no column ", kPlaceColumns[k],
+                              date_column_ ? "" : " before the values"),
                        header_cure_);
     }
-    if (column_[5] && !column_[kDepth])
+    if (column_[5] && !column_[kDepthColumn])
       reader_.refuse("there is a column dz and none of depth", "add depth [m], or leave dz out");
+  }
+
+  /// Places, then dates.
+  void wide_header() {
+    const std::vector<TableColumn>& columns = reader_.columns();
+    std::size_t first = 0;
+    while (first < columns.size() && take_place(first)) ++first;
+    for (std::size_t i = first; i < columns.size(); ++i) value_columns_.push_back(i);
     value_headings();
   }
 
-  void value_headings() {
-    const std::vector<TableColumn>& columns = reader_.columns();
-    const std::size_t n_values = columns.size() - first_value_;
-    if (n_values == 0 || (is_long_ && n_values > 1))
-      return reader_.refuse(concat("has ", n_values, " columns of values"), header_cure_);
-    std::optional<std::string> refused_unit;  // the same in all columns is said once
-    for (std::size_t i = first_value_; i < columns.size(); ++i) {
-      const TableColumn& one = columns[i];
-      const bool is_named = is_long_ ? one.name == name_of_value() : next_date(one.name);
-      if (!is_named && is_long_)
-        reader_.refuse(
-            "the last column is " + table_quote(one.name) + " and not " + name_of_value(),
-            header_cure_);
-      if (!is_named) return;
-      const std::string unit = one.text.substr(one.name.size());
-      if (unit == refused_unit) continue;
-      if (!reader_.set_unit(i, is_pressure_ ? Dimension::pressure : Dimension::temperature,
-                            is_pressure_ ? kPressureRange : kTemperatureRange, header_cure_))
-        refused_unit = unit;
+  /// Whether a column is one of those of the place; then it is taken.
+  bool take_place(std::size_t i) {
+    const std::string name = lower_case(reader_.columns()[i].name);
+    const bool is_height = name == "z";
+    const auto place =
+        is_height ? kPlaceColumns.begin() + kDepthColumn : std::ranges::find(kPlaceColumns, name);
+    if (place == kPlaceColumns.end()) return false;
+    const auto k = static_cast<std::size_t>(place - kPlaceColumns.begin());
+    if (column_[k]) {
+      reader_.refuse(is_height || is_upwards_ ? "there are columns of z and of depth, or two of z"
+                                              : "there are two columns " + name,
+                     "remove one of the two");
     }
-  }
-
-  /// Adds a report, unless its date is none or does not come after the one before.
-  bool next_date(std::string_view text) {
-    if (!date_names_.empty() && text == date_names_.back() && is_long_) return true;
-    const std::optional<double> date = parse_date(std::string(text));
-    if (!date) {
-      reader_.refuse(
-          table_quote(text) +
-              (is_long_ ? " is not a date" : " is neither a date nor x, y, depth, dx, dy or dz"),
-          "write dates as year-month-day, behind the columns of the place: 1990-01-31");
-      return false;
-    }
-    if (!dates_.empty() && *date == dates_.back() && is_long_) return true;
-    if (!dates_.empty() && *date <= dates_.back()) {
-      reader_.refuse("the date " + std::string(text) + " does not come after the one before",
-                     "write the reports in the order of time, each once");
-      return false;
-    }
-    dates_.push_back(*date);
-    date_names_.emplace_back(text);
-    values_.emplace_back();
+    is_upwards_ = is_upwards_ || is_height;
+    column_[k] = i;
+    reader_.set_unit(i, Dimension::length, k < kFirstSizeColumn ? kLengthRange : kSizeRange,
+                     header_cure_);
     return true;
   }
 
-  std::optional<Place> place() {
-    Place place{};
+  /// A row for each place and date, columns in any order; those of other properties are not used.
+  void long_header() {
+    const std::vector<TableColumn>& columns = reader_.columns();
+    std::vector<std::string> others;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (i == *date_column_ || take_place(i)) continue;
+      if (lower_case(columns[i].name) == name_of_value()) {
+        value_columns_.push_back(i);
+        set_value_unit(i);
+      } else if (columns[i].unit && is_length(*columns[i].unit)) {
+        reader_.refuse(table_quote(columns[i].text) + " is none of x, y, depth, z, dx, dy and dz",
+                       "name it so, or remove it");
+      } else {
+        others.push_back(columns[i].name);
+      }
+    }
+    if (value_columns_.size() != 1) {
+      return reader_.refuse(
+          concat("has ", value_columns_.size(), " columns of values, named ", name_of_value()),
+          header_cure_);
+    }
+    const std::string other_value = is_pressure_ ? "temperature" : "pressure";
+    std::erase_if(others, [&](const std::string& name) { return lower_case(name) == other_value; });
+    if (!others.empty()) {
+      notes_.push_back(
+          "has columns that are not used: " +
+          joined(others, ", ", [](const std::string& one) { return table_quote(one); }));
+    }
+  }
+
+  static bool is_length(const std::string& unit) {
+    return contains(std::array{"m", "km", "ft", "cm", "mm"}, unit);
+  }
+
+  bool set_value_unit(std::size_t i) {
+    return reader_.set_unit(i, is_pressure_ ? Dimension::pressure : Dimension::temperature,
+                            is_pressure_ ? kPressureRange : kTemperatureRange, header_cure_);
+  }
+
+  void value_headings() {
+    if (value_columns_.empty()) return reader_.refuse("has 0 columns of values", header_cure_);
+    std::optional<std::string> refused_unit;  // the same in all columns is said once
+    for (const std::size_t i : value_columns_) {
+      const TableColumn& one = reader_.columns()[i];
+      if (!next_date(one.name)) return;
+      const std::string unit = one.text.substr(one.name.size());
+      if (unit == refused_unit) continue;
+      if (!set_value_unit(i)) refused_unit = unit;
+    }
+  }
+
+  std::optional<double> date_of(std::string_view text) {
+    const std::optional<double> date = parse_date(std::string(text));
+    if (date) return date;
+    reader_.refuse(table_quote(text) + (date_column_ ? " is not a date"
+                                                     : " is neither a date nor x, y, depth, z, dx, "
+                                                       "dy or dz"),
+                   date_column_ ? "write dates as year-month-day, with or without a time of day: "
+                                  "1990-01-31 or 1990-01-31 12:00"
+                                : "write dates as year-month-day, behind the columns of the place: "
+                                  "1990-01-31");
+    return std::nullopt;
+  }
+
+  /// Adds the report of a column, unless its date is none or does not come after the one before.
+  bool next_date(const std::string& text) {
+    const std::optional<double> date = date_of(text);
+    if (!date) return false;
+    if (!reports_.empty() && *date <= reports_.back().date) {
+      reader_.refuse("the date " + text + " does not come after the one before",
+                     "write the reports in the order of time, each once");
+      return false;
+    }
+    reports_.push_back({*date, text, {}});
+    return true;
+  }
+
+  /// The report of a row of the long form, in whatever order they come; none: it has no date.
+  std::optional<std::size_t> report_of_row() {
+    const std::string_view text = reader_.cell(*date_column_);
+    if (!reports_.empty() && reports_[last_report_].name == text) return last_report_;
+    const std::optional<double> date = date_of(text);
+    if (!date) return std::nullopt;
+    const auto [known, is_new] = report_at_.try_emplace(*date, reports_.size());
+    if (is_new) reports_.push_back({*date, std::string(text), {}});
+    return last_report_ = known->second;
+  }
+
+  std::optional<TablePoints::Place> place() {
+    TablePoints::Place place{};
     bool is_whole = true;
     for (std::size_t k = 0; k < place.size(); ++k) {
       if (!column_[k]) continue;
@@ -128,114 +207,98 @@ class FlowTable {
       place[k] = value.value_or(0);
     }
     if (!is_whole) return std::nullopt;
+    if (is_upwards_) place[kDepthColumn] = -place[kDepthColumn];
     return place;
   }
 
   void row() {
-    if (is_long_ && !next_date(reader_.cell(0))) return;
-    const std::optional<Place> at = place();
+    std::optional<std::size_t> report;
+    if (date_column_ && !(report = report_of_row())) return;
+    const std::optional<TablePoints::Place> at = place();
     if (!at) return;
-    const auto [known, is_new] = numbers_.try_emplace(*at, places_.size());
+    const auto [known, is_new] = numbers_.try_emplace(*at, points_.places.size());
     if (is_new) {
-      places_.push_back(*at);
-      lines_.push_back(reader_.line());
+      points_.places.push_back(*at);
+      points_.lines.push_back(reader_.line());
     }
     const std::size_t cell = known->second;
-    for (std::size_t i = first_value_; i < reader_.columns().size(); ++i) {
-      const std::optional<double> value = reader_.value(i);
-      std::vector<double>& report = is_long_ ? values_.back() : values_[i - first_value_];
-      if (report.size() < places_.size()) report.resize(places_.size(), kNone);
-      if (!std::isnan(report[cell]))
+    for (std::size_t i = 0; i < value_columns_.size(); ++i) {
+      const std::optional<double> value = reader_.value(value_columns_[i]);
+      std::vector<double>& values = reports_[report.value_or(i)].values;
+      if (values.size() <= cell) values.resize(cell + 1, kNone);
+      if (!std::isnan(values[cell]))
         return reader_.refuse("the cell is there twice", "give each cell one value per report");
-      report[cell] = value.value_or(kNone);
+      values[cell] = value.value_or(kNone);
     }
   }
 
   /// In the long form a cell can be missing at a date.
   void require_every_cell() {
-    for (std::size_t t = 0; t < values_.size(); ++t) {
-      const auto n_missing = places_.size() - values_[t].size() +
-                             static_cast<std::size_t>(std::ranges::count_if(
-                                 values_[t], [](double value) { return std::isnan(value); }));
+    for (Report& report : reports_) {
+      report.values.resize(points_.places.size(), kNone);
+      const auto n_missing =
+          std::ranges::count_if(report.values, [](double value) { return std::isnan(value); });
       if (n_missing == 0) continue;
       return reader_.refuse_at(
-          0, concat(n_missing, " of ", places_.size(), " cells are missing at ", date_names_[t]),
+          0,
+          concat(n_missing, " of ", points_.places.size(), " cells are missing at ", report.name),
           "write every cell at every date");
     }
   }
 
-  /// [low, high] of all cells along an axis, downwards for depths; empty after a refusal.
-  std::vector<std::array<double, 2>> reach(std::size_t axis) {
-    std::vector<std::array<double, 2>> given;
-    if (axis == kDepth && !column_[kDepth]) {
-      constexpr double kFar = 1e5;  // m: the values hold at all depths
-      given.assign(places_.size(), {-kFar, kFar});
-    } else if (const std::size_t size = kFirstSize + axis; column_[size]) {
-      for (const Place& p : places_)
-        given.push_back({p[axis] - 0.5 * p[size], p[axis] + 0.5 * p[size]});
-    } else {
-      return inferred_reach(axis);
-    }
-    return given;
-  }
-
-  std::vector<std::array<double, 2>> inferred_reach(std::size_t axis) {
-    std::map<std::array<double, 2>, int> columns;  // of cells above each other
-    std::vector<int> line;
-    std::vector<double> at;
-    for (const Place& p : places_) {
-      line.push_back(
-          axis == kDepth
-              ? columns.try_emplace({p[0], p[1]}, static_cast<int>(columns.size())).first->second
-              : 0);
-      at.push_back(p[axis]);
-    }
-    CellReach cells = regular_cells(line, at);
-    if (!cells.what.empty()) {
-      const std::string name = kPlaces[axis], size = kPlaces[kFirstSize + axis];
-      reader_.refuse_at(
-          lines_[cells.cell], name + " " + cells.what + ": the size of the cells is not known",
-          "add a column " + size + " [m]" +
-              (axis == kDepth ? ", or leave depth out: the values then hold at all depths"
-                              : "; x and y are those of the grid's own axes, which the scene turns "
-                                "and shifts with \"azimuth\" and \"origin\""));
-    }
-    return std::move(cells.reach);
+  /// z of a file that counts it downwards.
+  void require_depths() {
+    if (!is_upwards_) return;
+    const auto above = std::ranges::find_if(
+        points_.places, [](const auto& place) { return place[kDepthColumn] < 0; });
+    if (above == points_.places.end()) return;
+    reader_.refuse_at(points_.lines[static_cast<std::size_t>(above - points_.places.begin())],
+                      "z is above 0: it counts upwards",
+                      "head the column depth [m] if it counts downwards");
   }
 
   FlowField result() {
+    for (std::size_t k = 0; k < column_.size(); ++k) points_.has_column[k] = column_[k].has_value();
+    PointCells cells = point_cells(points_, reader_);
     FlowField field;
-    const auto x = reach(0), y = reach(1), depth = reach(kDepth);
-    if (!reader_.is_sound()) return field;
-    field.date = dates_;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      field.cells.push_back(
-          {.low = {x[i][0], y[i][0], -depth[i][1]}, .high = {x[i][1], y[i][1], -depth[i][0]}});
+    field.cells = std::move(cells.cells);
+    field.notes = std::move(cells.notes);
+    field.notes.insert(field.notes.end(), notes_.begin(), notes_.end());
+    std::ranges::sort(reports_, {}, &Report::date);
+    field.date = mapped(reports_, &Report::date);
+    field.value.resize(std::ssize(field.cells), std::ssize(reports_));
+    for (std::size_t t = 0; t < reports_.size(); ++t) {
+      for (std::size_t c = 0; c < field.cells.size(); ++c)
+        field.value(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(t)) =
+            reports_[t].values[cells.point[c]];
     }
-    field.value.resize(std::ssize(places_), std::ssize(dates_));
-    for (std::size_t t = 0; t < values_.size(); ++t)
-      field.value.col(static_cast<Eigen::Index>(t)) =
-          Eigen::Map<const Eigen::VectorXd>(values_[t].data(), std::ssize(values_[t]));
     return field;
   }
+
+  struct Report {
+    double date;
+    std::string name;
+    std::vector<double> values;  ///< of the points; NaN: missing.
+  };
 
   TableReader reader_;
   bool is_pressure_;
   std::string header_cure_;
-  bool is_long_ = false;
-  std::array<std::optional<std::size_t>, 6> column_;  ///< of kPlaces.
-  std::size_t first_value_ = 0;                       ///< column.
-  std::vector<double> dates_;
-  std::vector<std::string> date_names_;
-  std::vector<Place> places_;
-  std::vector<int> lines_;  ///< where each place stands first.
-  std::map<Place, std::size_t> numbers_;
-  std::vector<std::vector<double>> values_;  ///< per report and cell; NaN: missing.
+  std::optional<std::size_t> date_column_;            ///< of the long form.
+  std::array<std::optional<std::size_t>, 6> column_;  ///< of kPlaceColumns.
+  bool is_upwards_ = false;                           ///< the column of depth is z.
+  std::vector<std::size_t> value_columns_;
+  std::vector<std::string> notes_;
+  std::vector<Report> reports_;
+  std::map<double, std::size_t> report_at_;  ///< number of a date's, in the long form.
+  std::size_t last_report_ = 0;              ///< of the row before.
+  TablePoints points_;
+  std::map<TablePoints::Place, std::size_t> numbers_;
 };
 
 }  // namespace
 
-FlowField parse_flow_csv(const std::string& text, const std::string& given, FlowQuantity quantity) {
+FlowField parse_flow_csv(std::string_view text, const std::string& given, FlowQuantity quantity) {
   return FlowTable(text, given, quantity).read();
 }
 

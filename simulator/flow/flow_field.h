@@ -27,6 +27,9 @@ struct FlowField {
   std::vector<FlowCell> cells;  ///< in the order of the file.
   std::vector<double> date;     ///< s since 1970-01-01, strictly increasing, at least one.
   Eigen::MatrixXd value = {};   ///< absolute, Pa or K, n_cells x n_reports, all finite and >= 0.
+  /// What was made of the file that it does not say itself, as the rest of a sentence about it:
+  /// "has no depth: its values hold at all depths".
+  std::vector<std::string> notes = {};
 };
 
 /// The smallest cell around eight corners: a box where they are those of one.

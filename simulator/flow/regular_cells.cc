@@ -1,8 +1,11 @@
 #include "simulator/flow/regular_cells.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <utility>
 
+#include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 
@@ -32,6 +35,73 @@ Gaps gaps_of(const std::vector<Centre>& centres) {
     if (gap(i) > gap(gaps.largest)) gaps.largest = i;
   }
   return gaps;
+}
+
+using Reach = std::array<double, 2>;
+
+/// The cells of which all centres are the middles, empty where there are none that tile the line.
+/// Borders are e_i = a_i + s_i d with e_(i+1) = 2 c_i - e_i, so s_i = 1, -1, 1, ...
+std::vector<Reach> side_by_side(const std::vector<double>& centre) {
+  constexpr double kLeast = 0.02;  // of the gap: a border is no nearer to a centre
+  double low = -HUGE_VAL, high = HUGE_VAL, border = centre[0], sign = 1;
+  std::vector<double> fixed{border}, wanted;
+  for (std::size_t i = 0; i < centre.size(); ++i, sign = -sign) {
+    border = 2 * centre[i] - border;
+    fixed.push_back(border);
+    if (i + 1 == centre.size()) break;
+    const double gap = centre[i + 1] - centre[i];
+    // centre_i < fixed - sign d < centre_(i+1)
+    const double one = sign * (border - centre[i] - kLeast * gap),
+                 other = sign * (border - centre[i + 1] + kLeast * gap);
+    low = std::max(low, std::min(one, other));
+    high = std::min(high, std::max(one, other));
+    wanted.push_back(sign * (border - centre[i] - 0.5 * gap));
+  }
+  if (!(low < high)) return {};
+  const auto middle = wanted.begin() + std::ssize(wanted) / 2;
+  std::nth_element(wanted.begin(), middle, wanted.end());
+  const double d = std::clamp(*middle, low, high);
+  std::vector<Reach> reach;
+  for (std::size_t i = 0; i < centre.size(); ++i) {
+    const double s = i % 2 == 0 ? d : -d;
+    reach.push_back({fixed[i] + s, fixed[i + 1] - s});
+  }
+  return reach;
+}
+
+/// Cells as wide as the smallest gap, empty where most are wider or some are no multiples of it.
+std::vector<Reach> with_holes(const std::vector<double>& centre) {
+  constexpr double kSame = 0.01;
+  double size = HUGE_VAL;
+  for (std::size_t i = 1; i < centre.size(); ++i) size = std::min(size, centre[i] - centre[i - 1]);
+  std::size_t n_smallest = 0;
+  for (std::size_t i = 1; i < centre.size(); ++i) {
+    const double n = (centre[i] - centre[i - 1]) / size;
+    if (std::abs(n - std::round(n)) > kSame) return {};
+    if (std::round(n) == 1) ++n_smallest;
+  }
+  if (2 * n_smallest < centre.size()) return {};
+  std::vector<Reach> reach;
+  for (const double c : centre) reach.push_back({c - 0.5 * size, c + 0.5 * size});
+  return reach;
+}
+
+std::vector<Reach> half_way(const std::vector<double>& centre) {
+  std::vector<Reach> reach;
+  const std::size_t last = centre.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double low = i > 0 ? centre[i] - centre[i - 1] : centre[1] - centre[0];
+    const double high = i < last ? centre[i + 1] - centre[i] : low;
+    reach.push_back({centre[i] - 0.5 * low, centre[i] + 0.5 * high});
+  }
+  return reach;
+}
+
+std::vector<Reach> uneven_line(const std::vector<double>& centre, double single) {
+  if (centre.size() == 1) return {{centre[0] - 0.5 * single, centre[0] + 0.5 * single}};
+  std::vector<Reach> reach = side_by_side(centre);
+  if (reach.empty()) reach = with_holes(centre);
+  return reach.empty() ? half_way(centre) : reach;
 }
 
 }  // namespace
@@ -68,6 +138,29 @@ CellReach regular_cells(const std::vector<int>& line, const std::vector<double>&
     cells.reach.push_back({own.second - low, own.second + high});
   }
   return cells;
+}
+
+std::vector<Reach> uneven_cells(const std::vector<int>& line, const std::vector<double>& at) {
+  std::map<int, std::vector<double>> centres;
+  for (std::size_t i = 0; i < at.size(); ++i) centres[line[i]].push_back(at[i]);
+  std::vector<double> gaps;
+  for (auto& [number, of_line] : centres) {
+    std::ranges::sort(of_line);
+    drop_repeated(of_line);
+    for (std::size_t i = 1; i < of_line.size(); ++i) gaps.push_back(of_line[i] - of_line[i - 1]);
+  }
+  FAULTSIM_DEMAND(!gaps.empty(), "single centres");
+  const auto middle = gaps.begin() + std::ssize(gaps) / 2;
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  std::map<int, std::vector<Reach>> reach;
+  for (const auto& [number, of_line] : centres) reach[number] = uneven_line(of_line, *middle);
+  std::vector<Reach> all;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const std::vector<double>& of_line = centres[line[i]];
+    const auto place = std::ranges::lower_bound(of_line, at[i]) - of_line.begin();
+    all.push_back(reach[line[i]][static_cast<std::size_t>(place)]);
+  }
+  return all;
 }
 
 }  // namespace faultsim

@@ -23,4 +23,21 @@ struct CellReach {
 /// @param at    centre of each cell along the axis, m.
 CellReach regular_cells(const std::vector<int>& line, const std::vector<double>& at);
 
+/// The reach of cells whose centres are not equally far from each other, line by line. The first of
+/// these that a line allows:
+///
+///   side by side  every centre is the middle of its cell, and the cells tile the line. Where
+///                 several sizes do that, the one whose borders are nearest to half way between
+///                 centres (least sum of distances): the true ones where more than half of all
+///                 neighbours are alike;
+///   with holes    all gaps are whole multiples of the smallest, to 1 %, and more than half equal
+///                 it: cells of that size;
+///   half way      each cell reaches half way to its neighbours, and as far on the other side at
+///                 the ends.
+///
+/// A line with a single centre takes the median gap of all. @pre some line has two centres.
+/// Arguments as above.
+std::vector<std::array<double, 2>> uneven_cells(const std::vector<int>& line,
+                                                const std::vector<double>& at);
+
 }  // namespace faultsim

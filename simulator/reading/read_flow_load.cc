@@ -130,6 +130,7 @@ void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
   }
   load.field = file->field;
   load.fingerprint = file->fingerprint;
+  for (const std::string& note : file->field->notes) scene.remarks.push_back({at, note});
   if (key.quantity != FlowQuantity::pressure) return;
   if (const std::string doubt = pressure_doubt(*load.field); !doubt.empty())
     scene.remarks.push_back({at, "looks wrong: " + doubt});

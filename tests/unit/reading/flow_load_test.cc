@@ -145,6 +145,16 @@ TEST_F(FlowLoads, AreTakenAtASectionInPlaneStrain) {
             "/pressure_field/y has no effect: it is the section of plane strain");
 }
 
+TEST_F(FlowLoads, SayWhatWasMadeOfTheirFile) {
+  write("p.csv",
+        "x [m], y [m], 1990-01-01 [bar], 1994-01-01 [bar]\n-1000, 0, 300, 200\n1000, 0, "
+        "300, 200\n-1000, 2000, 300, 200\n1000, 2000, 300, 200\n");
+  const Scene read = scene();
+  ASSERT_FALSE(read.remarks.empty());
+  EXPECT_EQ(remark_text(read.remarks[0]),
+            "/pressure_field has no depth: its values hold at all depths");
+}
+
 TEST_F(FlowLoads, OfTemperatureAreIdleInRockThatDoesNotExpand) {
   document_.value.erase("pressure_field");
   document_.value["temperature_field"] = {{"file", "t.csv"}};
