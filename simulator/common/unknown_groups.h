@@ -9,8 +9,8 @@ namespace faultsim {
 struct UnknownGroups {
   std::vector<int> of;  ///< per unknown, 0 … n−1.
   int n = 0;
-  /// Of the node in the middle of a side of a cell the groups at its ends, −1 = none. As long as
-  /// there are groups, or empty: no node is in the middle of a side.
+  /// Per group of a node in the middle of a cell's side those at the ends of the side (−1 = an end
+  /// without unknowns), per group of a corner two −1; empty where all nodes are corners.
   std::vector<std::array<int, 2>> ends = {};
 };
 

@@ -3,8 +3,8 @@
 #include <opm/io/eclipse/EGrid.hpp>
 #include <utility>
 
-#include "simulator/common/errors.h"
 #include "simulator/flow/eclipse_files.h"
+#include "simulator/flow/eclipse_problems.h"
 
 namespace faultsim {
 namespace {
@@ -26,7 +26,7 @@ std::string trimmed(std::string word) {
   return word;
 }
 
-class EclipseGridReader {
+class EclipseGridReader : EclipseProblems {
  public:
   explicit EclipseGridReader(const std::filesystem::path& path) : files_(eclipse_files(path)) {}
 
@@ -36,29 +36,14 @@ class EclipseGridReader {
       refuse(files_.grid, "there is no such grid",
              "write GRIDFILE with an EGRID in the flow simulator");
     } else {
-      attempted(files_.grid, [&] { take_grid(); });
+      guarded(files_.grid, [&] { take_grid(); });
       take_neighbours();
     }
-    if (!problems_.empty()) throw InputError(files_.grid.string(), problems_);
+    throw_if_any(files_.grid);
     return std::move(grid_);
   }
 
  private:
-  void refuse(const std::filesystem::path& file, const std::string& what, const std::string& cure) {
-    problems_.push_back({"", 0, file.filename().string() + ": " + what, cure});
-  }
-
-  /// What the library throws is about the file.
-  template <typename Work>
-  void attempted(const std::filesystem::path& file, const Work& work) {
-    try {
-      work();
-    } catch (const std::exception& error) {
-      refuse(file, std::string("cannot be read: ") + error.what(),
-             "copy it anew; it may be cut off");
-    }
-  }
-
   void take_grid() {
     EGrid file(files_.grid.string());
     if (!file.list_of_lgrs().empty()) {
@@ -96,7 +81,7 @@ class EclipseGridReader {
     init.replace_extension(".INIT");
     std::error_code error;
     if (std::filesystem::is_regular_file(init, error)) {
-      attempted(init, [&] {
+      guarded(init, [&] {
         EclFile file(init.string());
         take_units(file, init);
         grid_.equilibrium_region = array_of<int>(file, "EQLNUM");
@@ -104,7 +89,7 @@ class EclipseGridReader {
         grid_.cell_depth = array_of<float>(file, "DEPTH");
       });
     } else if (!files_.restarts.empty()) {
-      attempted(files_.restarts[0], [&] {
+      guarded(files_.restarts[0], [&] {
         EclFile file(files_.restarts[0].string());
         take_units(file, files_.restarts[0]);
       });
@@ -120,7 +105,6 @@ class EclipseGridReader {
 
   EclipseFiles files_;
   EclipseGrid grid_;
-  std::vector<Problem> problems_;
 };
 
 }  // namespace

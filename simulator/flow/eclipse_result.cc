@@ -14,6 +14,7 @@
 #include "simulator/common/text.h"
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/flow/eclipse_files.h"
+#include "simulator/flow/eclipse_problems.h"
 
 namespace faultsim {
 namespace {
@@ -55,7 +56,7 @@ struct MapAxes {
   }
 };
 
-class EclipseReader {
+class EclipseReader : EclipseProblems {
  public:
   EclipseReader(const std::filesystem::path& path, FlowQuantity quantity)
       : files_(eclipse_files(path)), quantity_(quantity) {}
@@ -69,39 +70,22 @@ class EclipseReader {
     for (const auto& file : files_.restarts) {
       if (problems_.size() < kMostProblems) guarded(file, [&] { read_restart(file); });
     }
-    if (!problems_.empty()) throw InputError(files_.grid.string(), problems_);
+    throw_if_any(files_.grid);
     return result();
   }
 
  private:
   static constexpr std::size_t kMostProblems = 20;
 
-  void refuse(const std::filesystem::path& file, const std::string& what, const std::string& cure) {
-    problems_.push_back({"", 0, file.filename().string() + ": " + what, cure});
-  }
-
-  /// What the library throws is about the file.
-  template <typename Work>
-  void guarded(const std::filesystem::path& file, const Work& work) {
-    try {
-      work();
-    } catch (const Error&) {
-      throw;
-    } catch (const std::exception& error) {
-      refuse(file, std::string("cannot be read: ") + error.what(),
-             "copy it anew; it may be cut off");
-    }
-  }
-
   void read_grid() {
     std::error_code error;
     if (!std::filesystem::is_regular_file(files_.grid, error)) {
       refuse(files_.grid, "there is no such grid",
              "write GRIDFILE with an EGRID in the flow simulator, beside the restarts");
-      throw InputError(files_.grid.string(), problems_);
+      throw_if_any(files_.grid);
     }
     guarded(files_.grid, [&] { take_cells(); });
-    if (!problems_.empty()) throw InputError(files_.grid.string(), problems_);
+    throw_if_any(files_.grid);
   }
 
   void take_cells() {
@@ -242,7 +226,6 @@ class EclipseReader {
   std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
   std::vector<double> dates_;                ///< s since 1970.
   std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
-  std::vector<Problem> problems_;
 };
 
 }  // namespace

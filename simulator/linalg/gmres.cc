@@ -11,27 +11,28 @@ namespace {
 /// Orthonormal vectors, kept in blocks that are taken as they are needed.
 class GrowingBasis {
  public:
-  explicit GrowingBasis(Eigen::Index size) : size_(size) {}
+  /// @param most  vectors: of few, one block has room for them all.
+  GrowingBasis(Eigen::Index size, Eigen::Index most)
+      : size_(size), width_(std::min<Eigen::Index>(most, 128)) {}
   void append(const Eigen::VectorXd& vector) {
-    const Eigen::Index at = n_++ % kBlock;
-    if (at == 0) blocks_.emplace_back(size_, kBlock);
+    const Eigen::Index at = n_++ % width_;
+    if (at == 0) blocks_.emplace_back(size_, width_);
     blocks_.back().col(at) = vector;
   }
-  auto operator[](Eigen::Index j) const { return blocks_[j / kBlock].col(j % kBlock); }
+  auto operator[](Eigen::Index j) const { return blocks_[j / width_].col(j % width_); }
   /// Σ y_j v_j over the first of them.
   Eigen::VectorXd combined(const Eigen::VectorXd& y) const {
     Eigen::VectorXd sum =
-        blocks_[0].leftCols(std::min(y.size(), kBlock)) * y.head(std::min(y.size(), kBlock));
-    for (Eigen::Index first = kBlock; first < y.size(); first += kBlock) {
-      const Eigen::Index n = std::min(y.size() - first, kBlock);
-      sum += blocks_[first / kBlock].leftCols(n) * y.segment(first, n);
+        blocks_[0].leftCols(std::min(y.size(), width_)) * y.head(std::min(y.size(), width_));
+    for (Eigen::Index first = width_; first < y.size(); first += width_) {
+      const Eigen::Index n = std::min(y.size() - first, width_);
+      sum += blocks_[first / width_].leftCols(n) * y.segment(first, n);
     }
     return sum;
   }
 
  private:
-  static constexpr Eigen::Index kBlock = 128;
-  Eigen::Index size_, n_ = 0;
+  Eigen::Index size_, width_, n_ = 0;
   std::vector<Eigen::MatrixXd> blocks_;
 };
 
@@ -45,7 +46,7 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
   const double norm = b.norm();
   if (norm == 0) return {true, 0, 0, {0}};
   report.residuals.push_back(1);
-  GrowingBasis basis(b.size());
+  GrowingBasis basis(b.size(), max_iterations + 1);
   Eigen::MatrixXd hessenberg = Eigen::MatrixXd::Zero(max_iterations + 1, max_iterations);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(max_iterations + 1);
   std::vector<Eigen::JacobiRotation<double>> rotations;

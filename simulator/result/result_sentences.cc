@@ -42,7 +42,12 @@ std::string sliding_sentence(const CaseResult& result) {
     if (fault.activated) text += concat(text.empty() ? "" : "; ", fault_slides(fault));
   if (!text.empty()) return text + ".";
   if (whole.activated) return concat("Slip of ", digits(whole.max_slip, 3), " m: it slides.");
-  text = concat("Nothing slides: χ̄ comes to ", digits(whole.chi_bar, 3));
+  std::string until;
+  if (!in_equilibrium(result.outcome)) {
+    if (result.steps.empty()) return "No load step was completed: what slides is not known.";
+    until = concat(" up to load step ", result.steps.back().step, ", where the case ended");
+  }
+  text = concat("Nothing slides", until, ": χ̄ comes to ", digits(whole.chi_bar, 3));
   if (std::isfinite(result.pressure_margin)) {
     text += concat(", and would be 1 after ", digits(result.pressure_margin / kBar, 4),
                    " bar more depletion, extrapolated");

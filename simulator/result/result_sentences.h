@@ -8,7 +8,8 @@
 /// What became of a case, as sentences for its readers; "" where there is nothing to say.
 namespace faultsim {
 
-/// What slides, and how far; what comes nearest where nothing does.
+/// What slides, and how far; what comes nearest where nothing does, and up to which load step where
+/// the history ends early.
 std::string sliding_sentence(const CaseResult& result);
 /// Pressures on both sides of a fault and in it: "west -40 bar (to 191 bar), in the fault -40 bar,
 /// at 2080 m depth".

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "grid_of_test.h"
+#include "made_grid.h"
 #include "simulator/common/errors.h"
 #include "simulator/corner_point/grid_structure.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "grid_of_test.h"
+#include "made_grid.h"
 #include "simulator/common/errors.h"
 
 namespace faultsim::corner_point {

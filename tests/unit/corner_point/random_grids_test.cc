@@ -12,7 +12,7 @@
 #include <random>
 #include <set>
 
-#include "grid_of_test.h"
+#include "made_grid.h"
 #include "simulator/corner_point/grid_structure.h"
 
 namespace faultsim::corner_point {

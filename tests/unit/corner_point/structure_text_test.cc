@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "grid_of_test.h"
+#include "made_grid.h"
 
 namespace faultsim::corner_point {
 namespace {

@@ -1,5 +1,5 @@
-// In place of eclipse_result_test.cc and eclipse_grid_test.cc where opm-common was not there to build with: what such a
-// program says of these files, and that the rest was not tested.
+// In place of eclipse_result_test.cc and eclipse_grid_test.cc where opm-common was not there to
+// build with: what such a program says of these files, and that the rest was not tested.
 #include <gmock/gmock.h>
 
 #include "simulator/common/errors.h"

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -8,11 +10,21 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/horizons/build_body.h"
+#include "simulator/horizons/map_mesh.h"
 
 /// Layered bodies to build in tests.
 namespace faultsim::horizons::test {
 
 constexpr double kDegree = std::numbers::pi / 180;
+
+/// The map of a body without problems.
+inline MapMesh meshed(const LayeredBody& body) {
+  std::vector<Problem> problems;
+  const MapLines lines = meeting_lines(body, problems);
+  MapMesh map = mesh_map(body, lines, problems);
+  for (const Problem& one : problems) ADD_FAILURE() << one.pointer << ": " << one.what;
+  return map;
+}
 
 /// A box of 6 by 4 by 3 km with a reservoir of 200 m below 1,900 m, and no fault.
 inline LayeredBody reservoir_body() {

@@ -12,15 +12,8 @@ namespace {
 using Eigen::Vector2d;
 using test::dipping_fault;
 using test::kDegree;
+using test::meshed;
 using test::reservoir_body;
-
-MapMesh meshed(const LayeredBody& body) {
-  std::vector<Problem> problems;
-  const MapLines lines = meeting_lines(body, problems);
-  MapMesh map = mesh_map(body, lines, problems);
-  for (const Problem& one : problems) ADD_FAILURE() << one.pointer << ": " << one.what;
-  return map;
-}
 
 /// One through the box, one that ends at it, one that crosses it, all with tips.
 LayeredBody crossed_body() {

@@ -15,6 +15,7 @@ namespace {
 using Eigen::Vector2d;
 using test::dipping_fault;
 using test::kDegree;
+using test::meshed;
 using test::reservoir_body;
 using testing::HasSubstr;
 
@@ -25,13 +26,6 @@ struct MadePillars {
 
   explicit MadePillars(const LayeredBody& from)
       : body(from), map(meshed(body)), pillars(body, map) {}
-  static MapMesh meshed(const LayeredBody& body) {
-    std::vector<Problem> problems;
-    const MapLines lines = meeting_lines(body, problems);
-    MapMesh mesh = mesh_map(body, lines, problems);
-    for (const Problem& one : problems) ADD_FAILURE() << one.pointer << ": " << one.what;
-    return mesh;
-  }
   std::vector<Problem> problems() const {
     std::vector<Problem> found;
     check_pillars(body, map, pillars, found);
@@ -172,7 +166,7 @@ TEST(Pillars, FaultsThatLeaveTheBoxOrCutEachOtherInDepthAreRefused) {
   body.faults[0].trace = {{2000, -1000}, {2000, 1000}};
   body.faults[0].first_end = body.faults[0].last_end = TraceEnd::in_rock;
   std::vector<Problem> problems;
-  check_faults_in_depth(body, MadePillars::meshed(body), problems);
+  check_faults_in_depth(body, meshed(body), problems);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].what, HasSubstr("\"F\" leaves the box at x 3154.7"));
   body.faults = {dipping_fault(), dipping_fault()};
@@ -180,7 +174,7 @@ TEST(Pillars, FaultsThatLeaveTheBoxOrCutEachOtherInDepthAreRefused) {
   body.faults[1].trace = {{800, -2000}, {800, 2000}};
   body.faults[1].dips_to = DipSide::left;
   problems.clear();
-  check_faults_in_depth(body, MadePillars::meshed(body), problems);
+  check_faults_in_depth(body, meshed(body), problems);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].what, HasSubstr("\"G\" and \"F\" cut each other in depth, at x "));
 }

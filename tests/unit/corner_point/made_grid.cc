@@ -1,4 +1,4 @@
-#include "grid_of_test.h"
+#include "made_grid.h"
 
 #include <algorithm>
 #include <cmath>
