@@ -20,7 +20,7 @@ install(DIRECTORY schemas/ DESTINATION ${CMAKE_INSTALL_DATADIR}/faultsim/schemas
 
 # The library: find_package(faultsim), faultsim::simulation. Its headers stand as they include each other, below a
 # folder of the project's name; those of modules that the public one does not need stay out.
-set(library_modules common documents scene initial_state reading mesh laws linalg model result files hdf5 cache result_files elasticity condensation contact plan flow gmsh loads
+set(library_modules common documents scene initial_state reading mesh laws linalg model result files hdf5 cache result_files elasticity condensation contact plan flow gmsh horizons loads
     operators measures loading surface simulation)
 list(TRANSFORM library_modules PREPEND faultsim_ OUTPUT_VARIABLE library_targets)
 install(TARGETS ${library_targets} EXPORT faultsim COMPONENT library

@@ -1,34 +1,21 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <string>
 #include <vector>
+
+#include "simulator/common/named_mesh.h"
 
 namespace faultsim {
 
-/// What a Gmsh file says of a body: cells of its physical volumes, facets of its physical surfaces.
-/// Both are of first order: of cells and facets of second order the corners are kept, what the
-/// nodes amid their sides say is `largest_bend`. Whether cells have a volume, and whether facets
-/// are faces of cells, is not looked at.
-struct GmshMesh {
-  std::vector<Eigen::Vector3d> nodes;      ///< m (units of the file): the corners of cells, in the
-                                           ///< order of the file.
-  std::vector<std::int64_t> node_tags;     ///< per node, > 0: its number in the file, for messages.
-  int corners_per_cell = 0;                ///< 4 = tetrahedra, 8 = hexahedra (VTK order).
-  std::vector<int> cells;                  ///< corners_per_cell for each cell, into nodes.
-  std::vector<int> cell_group;             ///< per cell, into cell_groups.
-  std::vector<std::string> cell_groups;    ///< names of the physical volumes that have cells, in
-                                           ///< the order of their numbers; each once.
-  std::vector<std::array<int, 4>> facets;  ///< corners, into nodes; -1 behind the last of a
-                                           ///< triangle.
-  std::vector<int> facet_group;            ///< per facet, into facet_groups.
-  std::vector<std::string> facet_groups;   ///< the same of physical surfaces that have facets.
+/// What a Gmsh file says of a body: cells of its physical volumes, facets of its physical surfaces,
+/// groups in the order of their numbers, nodes in the order of the file. Of cells and facets of
+/// second order the corners are kept, what the nodes amid their sides say is `largest_bend`.
+/// Whether cells have a volume, and whether facets are faces of cells, is not looked at.
+struct GmshMesh : NamedMesh {
+  std::vector<std::int64_t> node_tags;  ///< per node, > 0: its number in the file, for messages.
   double largest_bend = 0;  ///< m: how far a node amid a side lies from the side's middle.
-  std::string fingerprint;  ///< of the file's bytes.
 };
 
 inline constexpr std::size_t kMostGmshBytes = 2'000'000'000;  ///< some 40 million tetrahedra.

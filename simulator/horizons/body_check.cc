@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 
 namespace faultsim::horizons {
 namespace {
@@ -37,12 +39,22 @@ void check_box(const LayeredBody& body, NumberCheck& check) {
                "give 0 < at_faults <= far, and a growth above 0");
 }
 
+/// To a thousandth.
+std::string degrees(double angle) {
+  std::ostringstream text;
+  text << std::setprecision(3) << std::fixed << angle * 180 / std::numbers::pi;
+  std::string digits = text.str();
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits;
+}
+
 void check_dip(const LayeredFault& fault, const std::string& pointer, NumberCheck& check) {
   const std::string name = "\"" + fault.name + "\"";
   if (fault.listric.empty()) {
     constexpr double kLeast = 5 * std::numbers::pi / 180;
     check.demand(fault.dip >= kLeast && fault.dip <= std::numbers::pi / 2, pointer + "/dip",
-                 concat(name, " dips by ", fault.dip * 180 / std::numbers::pi, " degrees"),
+                 concat(name, " dips by ", degrees(fault.dip), " degrees"),
                  "give 5 to 90 degrees, and the side that it dips to");
     return;
   }

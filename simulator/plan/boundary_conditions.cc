@@ -40,7 +40,7 @@ std::vector<DisplacementCondition> displacement_conditions(const Scene& scene, i
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(condition.gradient.data());
     const Eigen::Vector3d translation(condition.translation.data());
     for (const std::string& name : condition.surfaces) {
-      const GmshMesh& mesh = *scene.box.mesh->content;
+      const NamedMesh& mesh = *scene.box.mesh->content;
       const BoundaryGroup group(surface_number(mesh, name));
       if (condition.kind == BoundaryKind::roller)
         conditions.push_back(held(group, one_component(*axis_across(mesh, group.index))));

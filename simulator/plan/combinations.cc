@@ -26,9 +26,9 @@ constexpr Refusal kRefusals[] = {
     {Feature::cohesion_loss, Feature::coupled_path,
      "the coupled path does not follow the jump of a first slip that ends cohesion",
      "leave cohesion_after_slip at true, or take the condensed path (--path condensed)"},
-    {Feature::mesh_file, Feature::plane_strain, "a mesh from a file is modelled in 3D, as it is",
+    {Feature::mesh, Feature::plane_strain, "a mesh is modelled in 3D, as it is",
      "set /numerics/plane_strain to \"off\", or mesh a slab with rollers in front and behind"},
-    {Feature::mesh_file, Feature::half_domain, "a mesh from a file is modelled as it is",
+    {Feature::mesh, Feature::half_domain, "a mesh is modelled as it is",
      "mesh the half, with a roller on its plane of symmetry"},
     {Feature::creep, Feature::contact_problem,
      "a load step with creeping salt is not one contact problem but several",
@@ -53,7 +53,7 @@ constexpr Named kNames[] = {
     {Feature::plane_strain, "plane strain", "/numerics/plane_strain"},
     {Feature::weakening, "weakening", "/faults"},
     {Feature::cohesion_loss, "cohesion lost by slip", "/faults"},
-    {Feature::mesh_file, "mesh from a file", "/geometry/file"},
+    {Feature::mesh, "mesh of a file or of horizons", "/geometry"},
     {Feature::coupled_path, "coupled path", ""},
     {Feature::displacements, "displacement fields", "/output/volume_fields"},
     {Feature::contact_problem, "`export-contact`", ""},
@@ -116,7 +116,7 @@ std::vector<Feature> features_of(const Scene& scene, const Plan& plan) {
   add(plan.plane_strain, Feature::plane_strain);
   add(std::ranges::any_of(faults, weakens), Feature::weakening);
   add(std::ranges::any_of(faults, loses_cohesion), Feature::cohesion_loss);
-  add(is_meshed(scene), Feature::mesh_file);
+  add(is_meshed(scene), Feature::mesh);
   add(scene.output.volume_fields, Feature::displacements);
   return features;
 }

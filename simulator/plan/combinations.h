@@ -21,7 +21,7 @@ enum class Feature {
   plane_strain,
   weakening,      ///< friction that falls with slip: events.
   cohesion_loss,  ///< by the first slip.
-  mesh_file,      ///< a mesh from a file in place of a grid.
+  mesh,           ///< tetrahedra or hexahedra in place of a grid: from a file, or of horizons.
   // asked for
   coupled_path,
   displacements,    ///< of the whole mesh.

@@ -97,7 +97,7 @@ void add_box(const BoxMeshSpec& box, ObjectText& family) {
 
 void add_mesh(const Scene& scene, ObjectText& family) {
   family.add("kind", "mesh");
-  family.add(kMeshFileInText, scene.box.mesh->content->fingerprint);
+  family.add(kMeshInText, scene.box.mesh->content->fingerprint);
   family.add("volumes", lists(scene.box.mesh->volumes));
   family.add("faults", mapped(scene.faults, &Fault::name));
   family.add("boundary", lists(scene.box.boundary));

@@ -11,9 +11,9 @@
 #include "simulator/common/text.h"
 #include "simulator/initial_state/load_times.h"
 #include "simulator/mesh/patch_frame.h"
+#include "simulator/plan/body_mesh.h"
 #include "simulator/plan/combinations.h"
 #include "simulator/plan/creep_plan.h"
-#include "simulator/plan/mesh_from_file.h"
 #include "simulator/plan/planned_grid.h"
 #include "simulator/scene/field_depths.h"
 
@@ -253,7 +253,7 @@ BoxMeshSpec box_mesh_spec(const Scene& scene, const Plan& plan) {
 }
 
 Mesh scene_mesh(const Scene& scene, const Plan& plan) {
-  if (is_meshed(scene)) return mesh_from_file(scene);
+  if (is_meshed(scene)) return body_mesh(scene);
   return scene.geometry_kind == GeometryKind::field ? make_mesh(field_mesh_spec(scene, plan))
                                                     : make_mesh(box_mesh_spec(scene, plan));
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "simulator/plan/mesh_from_file.h"
+#include "simulator/plan/body_mesh.h"
 #include "simulator/scene/field_depths.h"
 
 namespace faultsim {
@@ -129,10 +129,10 @@ double reservoir_cells(const Scene& scene, const GridLines& lines, bool plane_st
 }
 
 /// The program, and the build of the last operator beside what the others keep.
-PlannedGrid grid_of_file(const Scene& scene) {
-  const MeshFile& file = *scene.box.mesh;
+PlannedGrid grid_of_mesh(const Scene& scene) {
+  const BodyMesh& file = *scene.box.mesh;
   const auto is_loaded = [&](int group) { return !file.volumes[group].compartment.empty(); };
-  PlannedGrid grid{shape_of_file(scene), std::ssize(file.content->cell_group),
+  PlannedGrid grid{shape_of_mesh(scene), std::ssize(file.content->cell_group),
                    static_cast<double>(std::ranges::count_if(file.content->cell_group, is_loaded))};
   grid.shape.n_loads = n_loads(scene);
   return grid;
@@ -142,7 +142,7 @@ PlannedGrid grid_of_file(const Scene& scene) {
 
 std::optional<PlannedGrid> planned_grid(const Scene& scene, const Plan& plan,
                                         std::vector<Problem>& problems) {
-  if (is_meshed(scene)) return grid_of_file(scene);
+  if (is_meshed(scene)) return grid_of_mesh(scene);
   const GridLines lines = lines_of(scene, plan, problems);
   if (std::ranges::any_of(lines, [](const auto& line) { return line.size() < 2; }))
     return std::nullopt;

@@ -65,6 +65,11 @@ unsigned sections_of(const Members& members, const ChangedScene& changed) {
   const Scene& scene = changed.scene;
   const bool is_mixed =  // what fields, tables and surfaces make of the rest
       scene.has_field() || asks_for_surface(changed.document.value) || scene.n_table_remarks > 0;
+  // Where faults are is a part of such a body.
+  const bool is_of_traces = value_at(changed.document.value, "/geometry/kind") != nullptr &&
+                            *value_at(changed.document.value, "/geometry/kind") == "horizons" &&
+                            ((sections & kGeometry) != 0 || members.contains("faults"));
+  if (is_of_traces) return kAll;
   const bool is_small = (sections & ~unsigned{kInitialState | kFaults}) == 0;
   return is_mixed && !is_small ? unsigned{kAll} : sections;
 }

@@ -233,6 +233,7 @@ void check_turning_points(SceneReader& reader, const Scene& scene) {
 
 void check_geometry(SceneReader& reader, const Scene& scene) {
   if (!reader.sound("/geometry/kind") || !reader.has("/geometry/kind")) return;
+  if (is_of_mesh(reader) && !is_meshed(scene)) return;
   if (!reader.sound("/geometry/file") || !reader.sound("/geometry/volumes")) return;
   if (scene.geometry_kind == GeometryKind::field) {
     check_field_extent(reader, scene.field);

@@ -10,6 +10,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/common/table_reader.h"
 #include "simulator/flow/field_file.h"
+#include "simulator/gmsh/gmsh_mesh.h"
 
 namespace faultsim {
 namespace {
@@ -103,6 +104,11 @@ std::vector<std::string> table_names(const json& scene) {
   add_fault_pressure(scene);
   if (const json* faults = child_at(scene, "faults"); faults != nullptr && faults->is_array()) {
     for (const json& fault : *faults) add_fault_pressure(fault);
+  }
+  if (const json* layers = value_at(scene, "/geometry/layers");
+      layers != nullptr && layers->is_array()) {
+    for (const json& layer : *layers)
+      if (layer.is_object() && layer.contains("top")) add(layer["top"], "csv");
   }
   if (!scene.contains("compartments") || !scene["compartments"].is_object()) return names;
   for (const json& compartment : scene["compartments"]) add(compartment, "csv");

@@ -10,7 +10,7 @@
 namespace faultsim {
 
 /// The names of the CSV files that a scene uses, each once: of /pressure_csv, /compartments/*/csv,
-/// and the csv of fault pressures.
+/// the csv of fault pressures and that of tops of layers.
 std::vector<std::string> table_names(const nlohmann::json& scene);
 
 /// Puts the lines of a CSV file into the scene's "tables", unless it is there. A file that cannot

@@ -25,6 +25,13 @@ std::size_t size_at(const json& document, const std::string& pointer) {
   return value != nullptr && value->is_array() ? value->size() : 0;
 }
 
+/// What the pressure regions of a body are listed as.
+const char* list_of_regions(const json& document) {
+  const std::string kind = text_at(document, "/geometry/kind");
+  if (kind == "horizons") return "/geometry/compartments";
+  return kind == "field" ? "/geometry/blocks" : "/geometry/regions";
+}
+
 /// Letters, digits and '_' only, so that an alias can stand in an expression.
 std::string as_word(const std::string& name) {
   std::string word;
@@ -57,7 +64,7 @@ class Aliases {
     first_.emplace(pointer, alias);
   }
   void add_fixed() {
-    if (!is_mesh()) add("tier", "/tier");
+    if (!is_mesh() && !is_built()) add("tier", "/tier");
     for (const char* key : {"ratio_across", "ratio_along", "initial_biot", "overpressure"}) {
       add(key, std::string("/initial_state/") + key);
     }
@@ -76,10 +83,12 @@ class Aliases {
     add("slip_tolerance", "/numerics/slip_tolerance");
     add("activation_length", "/numerics/activation_length");
     for (const char* key : {"strike", "dip", "normal"}) {
-      if (!is_mesh()) add(std::string("mesh_") + key, std::string("/mesh/") + key);
+      if (is_mesh() || (is_built() && std::string_view(key) != "strike")) continue;
+      add(std::string("mesh_") + key, std::string("/mesh/") + key);
     }
   }
   bool is_mesh() const { return text_at(document_, "/geometry/kind") == "mesh"; }
+  bool is_built() const { return text_at(document_, "/geometry/kind") == "horizons"; }
   void add_compartment(const std::string& name) {
     const std::string compartment = "/compartments/" + pointer_token(name);
     add("scale_" + as_word(name), compartment + "/scale");
@@ -96,7 +105,7 @@ class Aliases {
   }
   void add_blocks() {
     const bool is_field = text_at(document_, "/geometry/kind") == "field";
-    const std::string list = is_field ? "/geometry/blocks" : "/geometry/regions";
+    const std::string list = list_of_regions(document_);
     const std::size_t n = size_at(document_, list);
     if (is_field && n > 0) add("offset", element(list, n - 1) + "/offset");
     for (std::size_t i = 0; i < n; ++i) {
@@ -141,6 +150,7 @@ class Aliases {
       const std::string at = element("/faults", i) + "/";
       const std::string name = as_word(text_at(document_, at + "name"));
       if (!is_mesh()) add("dip_" + name, at + "dip_from_vertical");
+      if (is_built()) add("throw_" + name, at + "throw");
       for (const char* key :
            {"friction_angle", "dynamic_friction_angle", "slip_weakening_distance", "cohesion"}) {
         add(std::string(key) + "_" + name, at + "friction/" + key);
@@ -275,11 +285,17 @@ class Collector {
     return nothing;
   }
   bool is_hidden(const std::string& pointer) const {
-    const bool field = text_at(document_.value, "/geometry/kind") == "field";
-    static const char* const of_boxes[] = {"center", "strike", "length", "width", "shape"};
-    if (field && pointer.rfind("/faults/", 0) == 0) {
+    const std::string kind = text_at(document_.value, "/geometry/kind");
+    const bool field = kind == "field";
+    static const std::vector<std::string> of_boxes = {"center", "strike", "length", "width",
+                                                      "shape"};
+    static const std::vector<std::string> of_horizons = {
+        "trace",  "first_end", "last_end",    "listric",     "top",
+        "bottom", "throw",     "throw_share", "throw_reach", "throw_taper"};
+    if (pointer.rfind("/faults/", 0) == 0 && pointer.find('/', 8) == pointer.rfind('/')) {
       const std::string key = pointer.substr(pointer.rfind('/') + 1);
-      if (std::ranges::find(of_boxes, key) != std::end(of_boxes)) return true;
+      if (kind != "box" && kind != "mesh" && contains(of_boxes, key)) return true;
+      if (kind != "horizons" && contains(of_horizons, key)) return true;
     }
     const bool absent = (pointer == "/pressure_field" || pointer == "/temperature_field") &&
                         child_at(document_.value, pointer.substr(1)) == nullptr;
@@ -336,8 +352,7 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
   Collector collector(document, aliases);
   json completed = document.value;
   // Optional objects by name do not show in the schema: a compartment per region.
-  const bool field = text_at(completed, "/geometry/kind") == "field";
-  const std::string list = field ? "/geometry/blocks" : "/geometry/regions";
+  const std::string list = list_of_regions(completed);
   for (std::size_t i = 0; i < size_at(completed, list); ++i) {
     const std::string name = text_at(completed, element(list, i) + "/name");
     json& compartments = completed["compartments"];

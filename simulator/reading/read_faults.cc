@@ -3,6 +3,7 @@
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/reading/csv_tables.h"
 #include "simulator/reading/fault_pressure_csv.h"
 #include "simulator/reading/read_keys.h"
@@ -199,32 +200,62 @@ PatchGeometry read_patch(SceneReader& reader, const std::string& at) {
   return patch;
 }
 
+/// The place of a fault of a mesh is that of a surface: its mean plane.
+void read_surface_place(SceneReader& reader, const std::string& at, const Fault& fault,
+                        Scene& scene) {
+  if (!is_meshed(scene)) return;  // what is wrong with the mesh has been said
+  const NamedMesh& mesh = *scene.box.mesh->content;
+  reader.require_known(at + "name", fault.name, "physical surface of the mesh", mesh.facet_groups);
+  const int surface = surface_number(mesh, fault.name);
+  scene.box.patches.push_back(surface < 0 ? PatchGeometry{} : mean_patch(mesh, surface));
+}
+
+/// Keys that say where a fault is, in bodies of another kind.
+void refuse_other_places(SceneReader& reader, const std::string& at) {
+  struct PlaceKeys {
+    std::vector<std::string> kinds;
+    std::vector<const char*> keys;
+  };
+  static const std::vector<PlaceKeys> places = {
+      {{"box"}, {"center", "strike", "length", "width", "shape"}},
+      {{"field", "box", "horizons"}, {"dip_from_vertical"}},
+      {{"horizons"},
+       {"trace", "first_end", "last_end", "listric", "top", "bottom", "throw", "throw_share",
+        "throw_reach", "throw_taper"}}};
+  const std::string kind = reader.text("/geometry/kind");
+  const bool is_field = kind == "field", is_mesh = kind == "mesh", is_box = kind == "box";
+  const auto place_of = places_in(reader, at);
+  for (const PlaceKeys& place : places) {
+    if (contains(place.kinds, kind)) continue;
+    for (const char* key : place.keys) {
+      if (place_of(key).value == nullptr) continue;
+      if (is_field) {
+        reader.problem(at + key, "faults of a field lie at the ends of the blocks",
+                       "remove it; blocks, fault_length and fault_overshoot say where faults are");
+      } else if (is_mesh) {
+        reader.problem(at + key, "a fault of a mesh lies where its physical surface does",
+                       "remove it");
+      } else {
+        reader.problem(at + key,
+                       is_box ? "a fault of a box is a patch" : "a fault of horizons has a trace",
+                       is_box ? "remove it; center, length and width say where it is"
+                              : "remove it; trace, top and bottom say where it is");
+      }
+    }
+  }
+}
+
 /// The patch of a fault of a box, or the mean plane of that of a mesh; of a field no more than the
 /// dip is given.
 void read_place(SceneReader& reader, const std::string& at, const Fault& fault, Scene& scene) {
-  const bool is_mesh = reader.text("/geometry/kind") == "mesh";
   const bool is_field = scene.geometry_kind == GeometryKind::field;
-  if (!is_mesh) check_dip(reader, at, !is_field, fault.dip_from_vertical);
-  if (is_mesh && is_meshed(scene)) {
-    const GmshMesh& mesh = *scene.box.mesh->content;
-    reader.require_known(at + "name", fault.name, "physical surface of the mesh",
-                         mesh.facet_groups);
-    const int surface = surface_number(mesh, fault.name);
-    scene.box.patches.push_back(surface < 0 ? PatchGeometry{} : mean_patch(mesh, surface));
+  if (is_of_mesh(reader)) {
+    read_surface_place(reader, at, fault, scene);
+  } else {
+    check_dip(reader, at, !is_field, fault.dip_from_vertical);
+    if (!is_field) scene.box.patches.push_back(read_patch(reader, at));
   }
-  if (!is_mesh && !is_field) scene.box.patches.push_back(read_patch(reader, at));
-  const auto place_of = places_in(reader, at);
-  for (const char* key : {"center", "strike", "length", "width", "shape", "dip_from_vertical"}) {
-    if (place_of(key).value == nullptr) continue;
-    if (is_field && std::string_view(key) != "dip_from_vertical") {
-      reader.problem(at + key, "faults of a field lie at the ends of the blocks",
-                     "remove it; blocks, fault_length and fault_overshoot say where faults are");
-    }
-    if (is_mesh) {
-      reader.problem(at + key, "a fault of a mesh lies where its physical surface does",
-                     "remove it");
-    }
-  }
+  refuse_other_places(reader, at);
 }
 
 /// What fault i says, or what is read once for all faults that say nothing.

@@ -111,9 +111,9 @@ void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
   const std::string at = key.at, name = reader.text(at + "/file");
   if (name.empty()) return;
   FlowLoad& load = scene.*key.load;
-  if (region_names(scene).empty() && reader.sound("/geometry")) {
+  if (region_names(scene).empty() && is_body_known(reader, scene)) {
     reader.problem(at, "there is no region that it could act on",
-                   "add \"regions\" to the geometry or remove the field");
+                   cure_of_no_region(reader) + " or remove the field");
   }
   load.outside_given = reader.has(at + "/outside");
   read_keys(reader, at + "/", load);

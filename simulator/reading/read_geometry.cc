@@ -1,22 +1,22 @@
 #include <algorithm>
-#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 
 #include "simulator/common/ranges.h"
-#include "simulator/reading/csv_tables.h"
+#include "simulator/reading/read_body.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/field_depths.h"
 #include "simulator/scene/mesh_body.h"
 
 namespace faultsim {
-namespace {
 
 std::vector<std::string> material_names(const Scene& scene) {
   return mapped(scene.materials, &Material::name);
 }
+
+namespace {
 
 std::vector<Layer> read_layers(SceneReader& reader, const Scene& scene) {
   const std::vector<std::string> materials = material_names(scene);
@@ -98,7 +98,7 @@ void check_tied(SceneReader& reader, const std::string& at, const BoundaryCondit
 }
 
 /// The physical surfaces that a condition of a mesh acts on.
-void read_surfaces(SceneReader& reader, const std::string& at, const MeshFile& mesh,
+void read_surfaces(SceneReader& reader, const std::string& at, const BodyMesh& mesh,
                    std::set<std::string>& taken, BoundaryCondition& condition) {
   for (std::size_t k = 0; k < reader.size(at + "surfaces"); ++k) {
     const std::string place = element(at + "surfaces", k);
@@ -133,6 +133,8 @@ void read_sides(SceneReader& reader, const std::string& at, std::set<std::string
   }
 }
 
+}  // namespace
+
 void read_boundary(SceneReader& reader, BoxGeometry& box) {
   std::set<std::string> taken;
   for (std::size_t i = 0; i < reader.size("/geometry/boundary"); ++i) {
@@ -152,6 +154,8 @@ void read_boundary(SceneReader& reader, BoxGeometry& box) {
   }
 }
 
+namespace {
+
 void read_box(SceneReader& reader, Scene& scene) {
   BoxGeometry& box = scene.box;
   const std::string at = "/geometry/";
@@ -168,54 +172,6 @@ void read_box(SceneReader& reader, Scene& scene) {
   box.regions = read_list<PressureRegion>(reader, at + "regions", [](const auto&...) {});
 }
 
-/// The file of a mesh, and what its volumes are.
-std::optional<MeshFile> read_mesh_file(SceneReader& reader, const Scene& scene) {
-  const std::string at = "/geometry/file", name = reader.text(at);
-  if (name.empty()) return std::nullopt;
-  const JsonDocument& document = reader.document();
-  MeshFile file;
-  file.name = name;
-  const FieldPlace place = field_place(document.value, document.source, name);
-  try {
-    file.content = std::make_shared<const GmshMesh>(read_gmsh(place.path));
-  } catch (const InputError& error) {
-    reader.table_problems(at, name, error);
-    return std::nullopt;
-  }
-  if (!place.fingerprint.empty() && place.fingerprint != file.content->fingerprint) {
-    reader.problem(
-        at, "\"" + name + "\" is no longer what it was: the file has changed",
-        "put the old file back, or remove its entry under \"fields\" to take the new one");
-    return std::nullopt;
-  }
-  for (const std::string& volume : file.content->cell_groups) {
-    const std::string own = "/geometry/volumes/" + pointer_token(volume);
-    if (!reader.has(own)) {
-      reader.problem("/geometry/volumes",
-                     "the volume \"" + volume + "\" of the mesh has no material",
-                     "add \"" + volume + "\": { \"material\": ... }");
-      continue;
-    }
-    MeshVolume& one = file.volumes.emplace_back(MeshVolume{volume, "", ""});
-    read_keys(reader, own + "/", one);
-    reader.require_known(own + "/material", one.material, "material", material_names(scene));
-  }
-  for (const std::string& named : reader.keys("/geometry/volumes")) {
-    reader.require_known("/geometry/volumes/" + pointer_token(named), named,
-                         "physical volume of the mesh", file.content->cell_groups);
-  }
-  return file;
-}
-
-void read_mesh_body(SceneReader& reader, Scene& scene) {
-  std::optional<MeshFile> file = read_mesh_file(reader, scene);
-  if (!file) return;
-  const bool is_whole = file->volumes.size() == file->content->cell_groups.size();
-  scene.box.mesh = std::move(file);
-  if (is_whole) describe_mesh(scene.box);
-  read_boundary(reader, scene.box);
-}
-
 }  // namespace
 
 void read_geometry(SceneReader& reader, Scene& scene) {
@@ -223,6 +179,7 @@ void read_geometry(SceneReader& reader, Scene& scene) {
   scene.geometry_kind = kind == "field" ? GeometryKind::field : GeometryKind::box;
   if (kind == "field") read_field(reader, scene);
   if (kind == "mesh") read_mesh_body(reader, scene);
+  if (kind == "horizons") read_horizons(reader, scene);
   if (kind == "box") read_box(reader, scene);
 }
 

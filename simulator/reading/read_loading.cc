@@ -116,7 +116,7 @@ class LoadingReader {
   void require_region(const std::string& pointer, const std::string& region) {
     const bool certain = reader_.sound("/geometry/kind") && reader_.sound("/geometry/blocks") &&
                          reader_.sound("/geometry/regions") && reader_.sound("/geometry/file") &&
-                         reader_.sound("/geometry/volumes");
+                         reader_.sound("/geometry/volumes") && is_body_known(reader_, scene_);
     if (certain && region.empty()) {
       reader_.problem(pointer, "a pressure region has no empty name", suggest(region, regions_));
     } else if (certain) {
@@ -172,9 +172,9 @@ class LoadingReader {
     if (reader_.find(pointer)->is_object()) {
       for (const std::string& region : reader_.keys(pointer))
         require_region(pointer + "/" + pointer_token(region), region);
-    } else if (regions_.empty() && reader_.sound("/geometry")) {
+    } else if (regions_.empty() && is_body_known(reader_, scene_)) {
       reader_.problem(pointer, "there is no region whose " + what + " could change",
-                      "add \"regions\" to the geometry or remove this line");
+                      cure_of_no_region(reader_) + " or remove this line");
     }
   }
 

@@ -65,13 +65,26 @@ void require_cell_sizes(SceneReader& reader, bool is_box, bool plane_strain) {
           (is_box ? "" : ", or choose a tier: screening, standard or reference"));
 }
 
-/// The cells of a mesh are there.
+/// The cells of a mesh are there; those of horizons have a size at the faults, and have been made.
 void refuse_cell_sizes(SceneReader& reader, Scene& scene) {
-  for (const char* key : {"/mesh", "/tier"}) {
-    if (reader.has(key))
-      reader.problem(key, "has no effect: the cells are those of the mesh", "remove it");
-  }
   default_creep_refinements(reader, scene.numerics);
+  const bool is_built = is_of_horizons(reader);
+  const char* why = is_built ? "has no effect: bodies of horizons have their sizes in \"mesh\""
+                             : "has no effect: the cells are those of the mesh";
+  if (reader.has("/tier")) reader.problem("/tier", why, "remove it");
+  if (!is_built) {
+    if (reader.has("/mesh")) reader.problem("/mesh", why, "remove it");
+    return;
+  }
+  for (const std::string& key : reader.keys("/mesh")) {
+    if (contains(std::vector<std::string>{"strike", "growth", "largest"}, key)) continue;
+    reader.problem("/mesh/" + key, "has no effect in a body of horizons",
+                   "remove it; strike is the size of cells at the faults");
+  }
+  if (!reader.has("/mesh/strike")) {
+    reader.problem(reader.has("/mesh") ? "/mesh" : "", "the cells have no size at the faults",
+                   "add \"mesh\": { \"strike\": \"50 m\" }");
+  }
 }
 
 }  // namespace
@@ -80,7 +93,7 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   read_keys(reader, "/numerics/", scene.numerics);
   for_each_creep_key(scene.numerics, key_reader(reader, places_in(reader, "/numerics/")));
   scene.tier = reader.text("/tier", "custom");
-  if (reader.text("/geometry/kind") == "mesh") return refuse_cell_sizes(reader, scene);
+  if (is_of_mesh(reader)) return refuse_cell_sizes(reader, scene);
   const bool is_box = scene.geometry_kind == GeometryKind::box;
   if (is_box && scene.tier != "custom" && reader.sound("/geometry/kind")) {
     reader.problem("/tier", "tiers are for a field, this is a box",

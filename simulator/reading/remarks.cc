@@ -42,7 +42,7 @@ class IdleInputs {
     materials();
     temperatures();
     geometry();
-    mesh_file();
+    body_mesh();
     boundaries();
     mesh_and_creep();
     initial_state();
@@ -60,14 +60,11 @@ class IdleInputs {
   }
 
   /// What is not taken of a mesh as it is.
-  void mesh_file() {
+  void body_mesh() {
     if (!is_meshed(scene_)) return;
-    const double bend = scene_.box.mesh->content->largest_bend;
-    if (bend > 0) {
-      scene_.remarks.push_back(
-          {"/geometry/file",
-           concat("has curved cells: their sides are straightened, by up to ", metres(bend))});
-    }
+    const char* place = reader_.has("/geometry/file") ? "/geometry/file" : "/geometry";
+    for (const std::string& remark : scene_.box.mesh->remarks)
+      scene_.remarks.push_back({place, remark});
   }
 
   /// The material whose pressure the blocks change; "" where any may be in a region.

@@ -122,6 +122,25 @@ std::string in_unit(double value, Dimension dimension, const std::string& unit);
 /// The same of a length: "2080 m".
 inline std::string metres(double value) { return in_unit(value, Dimension::length, "m"); }
 
+/// Whether the body is a mesh, from a file or built of horizons.
+inline bool is_of_mesh(const SceneReader& reader) {
+  const std::string kind = reader.text("/geometry/kind");
+  return kind == "mesh" || kind == "horizons";
+}
+inline bool is_of_horizons(const SceneReader& reader) {
+  return reader.text("/geometry/kind") == "horizons";
+}
+
+/// False where what is wrong with the body has been said, and its regions are not known.
+inline bool is_body_known(const SceneReader& reader, const Scene& scene) {
+  return reader.sound("/geometry") && (!is_of_mesh(reader) || scene.box.mesh.has_value());
+}
+/// A body without pressure regions, and what it lacks.
+inline std::string cure_of_no_region(const SceneReader& reader) {
+  return is_of_horizons(reader) ? "add \"compartments\" to the geometry"
+                                : "add \"regions\" to the geometry";
+}
+
 // Parts of read_scene, one file each.
 void read_materials(SceneReader& reader, Scene& scene);
 void read_geometry(SceneReader& reader, Scene& scene);

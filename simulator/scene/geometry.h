@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/gmsh/gmsh_mesh.h"
+#include "simulator/common/named_mesh.h"
 #include "simulator/scene/scene_key.h"
 
 /// What a scene is made of, in space: materials, the field or box, cells.
@@ -212,7 +212,7 @@ Bounds bounds_of(const PressureRegion& region);
 /// As of a rectangle.
 Bounds bounds_of(const PatchGeometry& patch);
 
-/// A volume of a mesh file, by the name of its physical volume.
+/// A volume of a mesh, by its name (in a file that of a physical volume).
 struct MeshVolume {
   std::string name;
   std::string material;
@@ -225,27 +225,28 @@ void for_each_key(Of<MeshVolume> auto& v, auto&& visit) {
   visit({"compartment", kFamily}, v.compartment);
 }
 
-/// Under which identities and families keep the file of a mesh: another name when what is computed
+/// Under which identities and families keep the bytes of a mesh: another name when what is computed
 /// on meshes alone changes, so that grids keep theirs (kNumericsVersion is for both). 2: unknowns
 /// ordered by corners.
-inline constexpr const char* kMeshFileInText = "file, numerics 2";
+inline constexpr const char* kMeshInText = "file, numerics 2";
 
-/// A mesh from a file, in place of the grid of a box.
-struct MeshFile {
-  std::string name;                         ///< as the scene names it.
-  std::shared_ptr<const GmshMesh> content;  ///< never null.
-  std::vector<MeshVolume> volumes;          ///< in the order of content->cell_groups.
-  long n_sides = 0;                         ///< of its cells, each once.
-  bool operator==(const MeshFile& other) const {
+/// A mesh in place of the grid of a box: from a file, or built of horizons.
+struct BodyMesh {
+  std::string name;                          ///< of its file, as the scene names it; for messages.
+  std::shared_ptr<const NamedMesh> content;  ///< never null.
+  std::vector<MeshVolume> volumes;           ///< in the order of content->cell_groups.
+  long n_sides = 0;                          ///< of its cells, each once.
+  std::vector<std::string> remarks;          ///< what is not as it was given.
+  bool operator==(const BodyMesh& other) const {
     return content->fingerprint == other.content->fingerprint && volumes == other.volumes;
   }
 };
-void for_each_key(Of<MeshFile> auto& m, auto&& visit) {
-  visit({"file", kByHand, kMeshFileInText}, m.content->fingerprint);
+void for_each_key(Of<BodyMesh> auto& m, auto&& visit) {
+  visit({"file", kByHand, kMeshInText}, m.content->fingerprint);
   visit({"volumes", kByHand}, m.volumes);
 }
 
-/// A body with patches of fault: a box with a grid, or a mesh from a file. Of a mesh `from` and
+/// A body with patches of fault: a box with a grid, or a mesh. Of a mesh `from` and
 /// `to` are its bounds, `patches` the mean planes of its faults, and `regions` the bounds of its
 /// compartments; nothing is meshed by these.
 struct BoxGeometry {
@@ -256,7 +257,7 @@ struct BoxGeometry {
   std::vector<PatchGeometry> patches;       ///< one per Scene::faults, same order.
   std::vector<BoundaryCondition> boundary;  ///< faces not mentioned: free.
   std::vector<PressureRegion> regions;
-  std::optional<MeshFile> mesh;
+  std::optional<BodyMesh> mesh;
   bool operator==(const BoxGeometry&) const = default;
 };
 void for_each_key(Of<BoxGeometry> auto& b, auto&& visit) {

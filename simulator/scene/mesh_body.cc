@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 std::array<double, 3> array_of(const Vector3d& x) { return {x.x(), x.y(), x.z()}; }
 
-Eigen::AlignedBox3d bounds_of_volumes(const GmshMesh& mesh, const std::vector<bool>& counts) {
+Eigen::AlignedBox3d bounds_of_volumes(const NamedMesh& mesh, const std::vector<bool>& counts) {
   const auto n = static_cast<std::size_t>(mesh.corners_per_cell);
   Eigen::AlignedBox3d bounds;
   for (std::size_t cell = 0; cell < mesh.cell_group.size(); ++cell) {
@@ -25,7 +25,7 @@ Eigen::AlignedBox3d bounds_of_volumes(const GmshMesh& mesh, const std::vector<bo
 }
 
 /// Sides of all cells, each once.
-long count_sides(const GmshMesh& mesh) {
+long count_sides(const NamedMesh& mesh) {
   constexpr std::array<std::array<std::size_t, 2>, 6> kOfTetrahedron = {
       {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
   if (mesh.corners_per_cell != 4) return 0;
@@ -41,7 +41,7 @@ long count_sides(const GmshMesh& mesh) {
 }
 
 /// n dA of a facet, turned so that it points to larger x; of one across x to larger y, or up.
-Vector3d turned_area(const GmshMesh& mesh, const std::array<int, 4>& facet) {
+Vector3d turned_area(const NamedMesh& mesh, const std::array<int, 4>& facet) {
   constexpr double kAcross = 1e-3;
   const Vector3d &a = mesh.nodes[facet[0]], &b = mesh.nodes[facet[1]], &c = mesh.nodes[facet[2]];
   Vector3d area = (b - a).cross(c - a) / 2;
@@ -53,13 +53,13 @@ Vector3d turned_area(const GmshMesh& mesh, const std::array<int, 4>& facet) {
 }
 
 template <typename Function>
-void for_each_facet(const GmshMesh& mesh, int surface, const Function& visit) {
+void for_each_facet(const NamedMesh& mesh, int surface, const Function& visit) {
   for (std::size_t k = 0; k < mesh.facets.size(); ++k)
     if (mesh.facet_group[k] == surface) visit(mesh.facets[k]);
 }
 
 /// Extent of a surface along a direction.
-double extent_along(const GmshMesh& mesh, int surface, const Vector3d& direction) {
+double extent_along(const NamedMesh& mesh, int surface, const Vector3d& direction) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for_each_facet(mesh, surface, [&](const std::array<int, 4>& facet) {
     for (const int node : facet) {
@@ -74,8 +74,8 @@ double extent_along(const GmshMesh& mesh, int surface, const Vector3d& direction
 }  // namespace
 
 void describe_mesh(BoxGeometry& box) {
-  MeshFile& file = *box.mesh;
-  const GmshMesh& mesh = *file.content;
+  BodyMesh& file = *box.mesh;
+  const NamedMesh& mesh = *file.content;
   const Eigen::AlignedBox3d all =
       bounds_of_volumes(mesh, std::vector<bool>(mesh.cell_groups.size(), true));
   box.from = array_of(all.min());
@@ -94,12 +94,12 @@ void describe_mesh(BoxGeometry& box) {
   file.n_sides = count_sides(mesh);
 }
 
-int surface_number(const GmshMesh& mesh, const std::string& name) {
+int surface_number(const NamedMesh& mesh, const std::string& name) {
   const auto at = std::ranges::find(mesh.facet_groups, name);
   return at == mesh.facet_groups.end() ? -1 : static_cast<int>(at - mesh.facet_groups.begin());
 }
 
-PatchGeometry mean_patch(const GmshMesh& mesh, int surface) {
+PatchGeometry mean_patch(const NamedMesh& mesh, int surface) {
   Vector3d area = Vector3d::Zero(), centre = Vector3d::Zero();
   double total = 0;
   for_each_facet(mesh, surface, [&](const std::array<int, 4>& facet) {
@@ -121,7 +121,7 @@ PatchGeometry mean_patch(const GmshMesh& mesh, int surface) {
   return patch;
 }
 
-std::optional<std::size_t> axis_across(const GmshMesh& mesh, int surface) {
+std::optional<std::size_t> axis_across(const NamedMesh& mesh, int surface) {
   constexpr double kFlat = 1e-9;
   std::optional<std::size_t> axis;
   bool is_flat = true;

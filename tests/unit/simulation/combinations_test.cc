@@ -20,7 +20,7 @@ namespace {
 constexpr Feature kOfScenes[] = {
     Feature::creep,         Feature::surface,     Feature::flow_result,  Feature::temperature,
     Feature::stress_change, Feature::half_domain, Feature::plane_strain, Feature::weakening,
-    Feature::cohesion_loss, Feature::mesh_file};
+    Feature::cohesion_loss, Feature::mesh};
 constexpr Feature kAskedFor[] = {Feature::coupled_path, Feature::displacements,
                                  Feature::contact_problem, Feature::influences};
 
@@ -68,7 +68,7 @@ class Combinations : public testing::Test {
   std::string scene_of(Feature one, Feature other) const {
     const auto has = [&](Feature feature) { return one == feature || other == feature; };
     const bool is_plane = has(Feature::plane_strain) || !has(Feature::half_domain);
-    const bool is_mesh = has(Feature::mesh_file);
+    const bool is_mesh = has(Feature::mesh);
     JsonDocument document = is_mesh ? read_json_file((folder_ / "scene.json").string())
                                     : parse_json(starter_scene("field"), "scene");
     nlohmann::json stage = {{"name", "production"}, {"until", "2000-01-01"}, {"steps", 2}};

@@ -1,4 +1,4 @@
-#include "simulator/plan/mesh_from_file.h"
+#include "simulator/plan/body_mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace faultsim {
 namespace {
 
 /// About how many nodes a fault splits: as many as half of its facets, if they are triangles.
-int about_split(const GmshMesh& mesh, int surface) {
+int about_split(const NamedMesh& mesh, int surface) {
   const auto n = std::ranges::count(mesh.facet_group, surface);
   return static_cast<int>(mesh.corners_per_cell == 4 ? n / 2 : n);
 }
@@ -36,8 +36,8 @@ int material_index(const Scene& scene, const std::string& name) {
 }
 
 UncutMesh uncut_mesh(const Scene& scene) {
-  const MeshFile& file = *scene.box.mesh;
-  const GmshMesh& from = *file.content;
+  const BodyMesh& file = *scene.box.mesh;
+  const NamedMesh& from = *file.content;
   UncutMesh body;
   body.nodes = from.nodes;
   body.shape = from.corners_per_cell == 4 ? CellShape::tetrahedron : CellShape::hexahedron;
@@ -71,14 +71,14 @@ UncutMesh uncut_mesh(const Scene& scene) {
   return body;
 }
 
-Mesh mesh_from_file(const Scene& scene) {
+Mesh body_mesh(const Scene& scene) {
   Mesh mesh = cut(uncut_mesh(scene), scene.box.mesh->name);
   refuse_bad_cells(mesh);
   return mesh;
 }
 
-GridShape shape_of_file(const Scene& scene) {
-  const MeshFile& file = *scene.box.mesh;
+GridShape shape_of_mesh(const Scene& scene) {
+  const BodyMesh& file = *scene.box.mesh;
   const auto n_nodes =
       static_cast<double>(file.content->nodes.size()) + static_cast<double>(file.n_sides);
   const int side = std::max(2, static_cast<int>(std::lround(std::cbrt(n_nodes))));

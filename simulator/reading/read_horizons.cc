@@ -1,0 +1,211 @@
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <iomanip>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "simulator/common/fingerprint.h"
+#include "simulator/common/ranges.h"
+#include "simulator/horizons/build_body.h"
+#include "simulator/mesh/uncut_mesh.h"
+#include "simulator/reading/read_body.h"
+#include "simulator/reading/read_layered_body.h"
+#include "simulator/scene/mesh_body.h"
+
+/// Geometry of the kind `horizons`: a body is built of its keys, and stands in the scene as a mesh.
+namespace faultsim {
+namespace {
+
+/// Keys of a fault that say where it is.
+constexpr std::array kPlaceKeys = {"name",    "trace",       "first_end",   "last_end",
+                                   "listric", "top",         "bottom",      "dip_from_vertical",
+                                   "throw",   "throw_share", "throw_reach", "throw_taper"};
+
+/// Whether all is sound that a body is built of; of faults their places alone.
+bool is_buildable(const SceneReader& reader) {
+  const auto lacks_name = [&](const std::string& at) { return !reader.sound(at + "/name"); };
+  if (!reader.sound("/geometry") || !reader.sound("/mesh") || !reader.has("/mesh/strike"))
+    return false;
+  for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
+    const std::string at = element("/faults", i);
+    if (lacks_name(at) || !reader.has(at + "/trace")) return false;
+    for (const char* key : kPlaceKeys)
+      if (!reader.sound(at + "/" + key)) return false;
+  }
+  return true;
+}
+
+/// All that a built body depends on, as a short text.
+std::string key_of(const SceneReader& reader, const std::string& tables) {
+  std::string text = fingerprint(tables) + "\n";
+  for (const char* member : {"/geometry", "/mesh"}) {
+    if (const nlohmann::json* value = reader.find(member)) text += value->dump() + "\n";
+  }
+  for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
+    for (const char* key : kPlaceKeys) {
+      const nlohmann::json* value = reader.find(element("/faults", i) + "/" + key);
+      text += (value == nullptr ? "-" : value->dump()) + "\n";
+    }
+  }
+  return fingerprint(text);
+}
+
+struct Volumes {
+  std::vector<MeshVolume> all;
+  std::vector<int> of_cell;
+};
+
+/// Rock of one layer, in a compartment or in none.
+Volumes volumes_of(const BodyOfKeys& keys, const horizons::BuiltBody& built) {
+  std::map<std::pair<int, int>, int> numbers;  // by layer and compartment, −1: none
+  std::vector<std::pair<int, int>> of_cell;
+  for (std::size_t cell = 0; cell < built.layer.size(); ++cell) {
+    const int layer = built.layer[cell], compartment = built.compartment[cell];
+    const bool is_in = compartment >= 0 && keys.body.compartments[compartment].region[layer] >= 0;
+    of_cell.emplace_back(layer, is_in ? compartment : -1);
+    numbers.try_emplace(of_cell.back(), 0);
+  }
+  Volumes volumes;
+  for (auto& [place, number] : numbers) {
+    const LayerRock& rock = keys.rocks[place.first];
+    number = static_cast<int>(volumes.all.size());
+    if (place.second < 0) {
+      volumes.all.push_back({rock.name, rock.outside, ""});
+    } else {
+      const std::string& name = keys.body.compartments[place.second].name;
+      volumes.all.push_back({rock.name + " in " + name, rock.material, name});
+    }
+  }
+  for (const auto& place : of_cell) volumes.of_cell.push_back(numbers.at(place));
+  return volumes;
+}
+
+std::shared_ptr<const NamedMesh> named_mesh(const horizons::BuiltBody& built,
+                                            const Volumes& volumes) {
+  auto mesh = std::make_shared<NamedMesh>();
+  mesh->nodes = built.mesh.nodes;
+  mesh->corners_per_cell = 4;
+  mesh->cells = built.mesh.corners;
+  mesh->cell_group = volumes.of_cell;
+  mesh->cell_groups = mapped(volumes.all, &MeshVolume::name);
+  for (const auto* list : {&built.mesh.boundary, &built.mesh.faults}) {
+    for (const FacetGroup& group : *list) {
+      mesh->facet_group.insert(mesh->facet_group.end(), group.facets.size(),
+                               static_cast<int>(mesh->facet_groups.size()));
+      mesh->facets.insert(mesh->facets.end(), group.facets.begin(), group.facets.end());
+      mesh->facet_groups.push_back(group.name);
+    }
+  }
+  mesh->fingerprint = fingerprint_of(*mesh);
+  return mesh;
+}
+
+std::vector<std::string> remarks_of(const horizons::BuiltBody& built) {
+  std::vector<std::string> remarks;
+  if (built.n_slivers > 0) {
+    std::ostringstream quality;
+    quality << std::setprecision(2) << built.smallest_sicn;
+    const Eigen::Vector3d& at = built.worst_place;
+    remarks.push_back(concat(
+        "has ", counted(built.n_slivers, "flat cell", "flat cells"), " of ", built.mesh.n_cells(),
+        ", of quality below 0.1 (1 is regular), the worst ", quality.str(), " at x ",
+        metres(at.x()), ", y ", metres(at.y()), ", z ", metres(at.z())));
+  }
+  if (built.n_snapped > 0) {
+    remarks.push_back(concat("has ", counted(built.n_snapped, "place", "places"),
+                             " where horizons of both sides of a fault are joined, as they differ "
+                             "by less than 0.12 of a cell"));
+  }
+  return remarks;
+}
+
+BodyMesh build(const BodyOfKeys& keys, const std::string& source) {
+  const horizons::BuiltBody built = horizons::build_body(keys.body, source);
+  Volumes volumes = volumes_of(keys, built);
+  BodyMesh mesh;
+  mesh.name = source;
+  mesh.content = named_mesh(built, volumes);
+  mesh.volumes = std::move(volumes.all);
+  mesh.remarks = remarks_of(built);
+  return mesh;
+}
+
+/// The last bodies: cases of a campaign that change strengths or pressures share one.
+class LastBodies {
+ public:
+  std::optional<BodyMesh> find(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    const auto at = std::ranges::find(kept_, key, &Kept::first);
+    return at == kept_.end() ? std::nullopt : std::optional(at->second);
+  }
+  void keep(const std::string& key, const BodyMesh& body) {
+    constexpr std::size_t kMost = 4;
+    const std::scoped_lock lock(mutex_);
+    kept_.emplace_front(key, body);
+    if (kept_.size() > kMost) kept_.pop_back();
+  }
+
+ private:
+  using Kept = std::pair<std::string, BodyMesh>;
+  std::mutex mutex_;
+  std::deque<Kept> kept_;
+};
+
+std::optional<BodyMesh> body_of(SceneReader& reader, const BodyOfKeys& keys) {
+  static LastBodies last;
+  const std::string& source = reader.document().source;
+  const std::string key = key_of(reader, keys.tables);
+  std::optional<BodyMesh> body = last.find(key);
+  if (body) {
+    body->name = source;
+    return body;
+  }
+  try {
+    body = build(keys, source);
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems())
+      reader.problem(scene_pointer(problem.pointer), problem.what, problem.cure);
+    return std::nullopt;
+  }
+  last.keep(key, *body);
+  return body;
+}
+
+/// Sides and base slide along themselves; the top is free.
+void hold_sides(BoxGeometry& box) {
+  BoundaryCondition& held = box.boundary.emplace_back();
+  held.surfaces = {"x-", "x+", "y-", "y+", "z-"};
+  held.kind = BoundaryKind::roller;
+}
+
+/// Names of faults stand beside those of the sides.
+void refuse_names_of_sides(SceneReader& reader) {
+  for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
+    const std::string at = element("/faults", i) + "/name", name = reader.text(at);
+    if (!named<Side>(name)) continue;
+    reader.problem(at, "\"" + name + "\" is the name of a side of the body",
+                   "give the fault another one");
+  }
+}
+
+}  // namespace
+
+void read_horizons(SceneReader& reader, Scene& scene) {
+  const BodyOfKeys keys = read_layered_body(reader, scene);
+  refuse_names_of_sides(reader);
+  if (!is_buildable(reader)) return;
+  std::optional<BodyMesh> body = body_of(reader, keys);
+  if (!body) return;
+  scene.box.mesh = *std::move(body);
+  describe_mesh(scene.box);
+  if (reader.has("/geometry/boundary")) return read_boundary(reader, scene.box);
+  hold_sides(scene.box);
+}
+
+}  // namespace faultsim
