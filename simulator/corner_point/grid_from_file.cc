@@ -79,33 +79,9 @@ class GridMaker {
       refuse("GRIDUNIT says \"" + file_.length_unit + "\"",
              "METRES, FEET and CM are known; mend GRIDUNIT in the flow model");
     }
-    const EclipseLength length = eclipse_length(file_, depth_ratio());
+    const EclipseLength length = eclipse_length(file_, eclipse_depth_ratio(file_));
     metre_ = length.metre;
     if (!length.remark.empty()) grid_.remarks.push_back(length.remark);
-  }
-
-  /// The median of DEPTH over the depth that the corners give.
-  std::optional<double> depth_ratio() const {
-    if (std::ssize(file_.cell_depth) != n_active_) return std::nullopt;
-    std::vector<double> ratios;
-    std::size_t active = 0;
-    for (int cell = 0; cell < grid_.n_cells(); ++cell) {
-      if (grid_.is_active[cell] == 0) continue;
-      const int column = cell % grid_.n_columns(), k = cell / grid_.n_columns();
-      double depth = 0;
-      for (CornerPlace corner : kMapCorners) {
-        for (const bool bottom : {false, true}) {
-          corner.bottom = bottom;
-          depth += static_cast<double>(file_.zcorn[grid_.corner_index(column, k, corner)]) / 8;
-        }
-      }
-      const double ratio = static_cast<double>(file_.cell_depth[active++]) / depth;
-      if (std::isfinite(ratio)) ratios.push_back(ratio);
-    }
-    if (ratios.empty()) return std::nullopt;
-    const auto middle = ratios.begin() + std::ssize(ratios) / 2;
-    std::ranges::nth_element(ratios, middle);
-    return *middle;
   }
 
   /// A point on the grid's y axis, its origin, a point on its x axis, on the map.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,6 +17,32 @@ std::string metre_words(double metre) {
 }
 
 }  // namespace
+
+std::optional<double> eclipse_depth_ratio(const EclipseGrid& grid) {
+  const auto n_i = static_cast<std::size_t>(grid.size[0]),
+             n_j = static_cast<std::size_t>(grid.size[1]),
+             n_k = static_cast<std::size_t>(grid.size[2]), n_cells = n_i * n_j * n_k;
+  const bool has_active = grid.active.size() == n_cells;
+  if (grid.zcorn.size() != 8 * n_cells || !(has_active || grid.active.empty())) return std::nullopt;
+  std::vector<double> ratios;
+  std::size_t n_active = 0;
+  for (std::size_t cell = 0; cell < n_cells; ++cell) {
+    if (has_active && grid.active[cell] == 0) continue;
+    if (n_active >= grid.cell_depth.size()) return std::nullopt;
+    const std::size_t i = cell % n_i, j = cell / n_i % n_j, k = cell / n_i / n_j;
+    double depth = 0;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const std::size_t x = 2 * i + corner % 2, y = 2 * j + corner / 2 % 2, z = 2 * k + corner / 4;
+      depth += static_cast<double>(grid.zcorn[x + 2 * n_i * (y + 2 * n_j * z)]) / 8;
+    }
+    const double ratio = static_cast<double>(grid.cell_depth[n_active++]) / depth;
+    if (std::isfinite(ratio)) ratios.push_back(ratio);
+  }
+  if (ratios.empty() || n_active != grid.cell_depth.size()) return std::nullopt;
+  const auto middle = ratios.begin() + std::ssize(ratios) / 2;
+  std::ranges::nth_element(ratios, middle);
+  return *middle;
+}
 
 std::optional<double> eclipse_metre(const std::string& unit) {
   if (unit.rfind("METRES", 0) == 0) return 1;

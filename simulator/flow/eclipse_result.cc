@@ -14,6 +14,7 @@
 #include "simulator/common/text.h"
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/flow/eclipse_files.h"
+#include "simulator/flow/eclipse_grid.h"
 #include "simulator/flow/eclipse_problems.h"
 
 namespace faultsim {
@@ -38,12 +39,6 @@ Scale scale_of(int unit, FlowQuantity quantity) {
   if (quantity == FlowQuantity::pressure)
     return {unit == 1 ? 1e5 : unit == 2 ? kPsi : kAtmosphere, 0};
   return unit == 2 ? Scale{kRankine, kFahrenheit} : Scale{1, kKelvin};
-}
-
-/// "METRES  ", "FEET    ", "CM      " in m.
-double length_of(const std::string& unit) {
-  if (unit.rfind("FEET", 0) == 0) return 0.3048;
-  return unit.rfind("CM", 0) == 0 ? 0.01 : 1;
 }
 
 /// Where the grid's own x and y lie on the map: p = origin + x along_x + y along_y.
@@ -98,7 +93,7 @@ class EclipseReader : EclipseProblems {
       return refuse(files_.grid, "is a radial grid", "corner-point grids are read");
     std::vector<std::string> unit;
     if (grid.hasKey("GRIDUNIT")) unit = grid.get<std::string>("GRIDUNIT");
-    const double metre = unit.empty() ? 1 : length_of(unit[0]);
+    const double metre = length_unit();
     const bool is_on_map = unit.size() > 1 && unit[1].rfind("MAP", 0) == 0;
     if (!is_on_map) take_axes(grid, metre);
     if (!problems_.empty()) return;
@@ -113,11 +108,20 @@ class EclipseReader : EclipseProblems {
     if (cells_.empty()) refuse(files_.grid, "has no active cell", "");
   }
 
+  /// m per unit of the grid: the files beside it say more of that than it does.
+  double length_unit() {
+    const EclipseGrid arrays = read_eclipse_grid(files_.grid);
+    const EclipseLength length = eclipse_length(arrays, eclipse_depth_ratio(arrays));
+    if (!length.remark.empty())
+      notes_.push_back("leaves its unit of length open: " + length.remark);
+    return length.metre;
+  }
+
   /// A point on the grid's y axis, its origin, a point on its x axis, on the map.
   void take_axes(const EGrid& grid, double metre) {
     const std::vector<float>& axes = grid.get_mapaxes();
     if (axes.size() < 6) return;
-    if (!grid.get_mapunits().empty()) metre = length_of(grid.get_mapunits());
+    metre = eclipse_metre(grid.get_mapunits()).value_or(metre);
     const auto point = [&](std::size_t i) {
       return Eigen::Vector2d(metre * static_cast<double>(axes[i]),
                              metre * static_cast<double>(axes[i + 1]));
@@ -206,6 +210,7 @@ class EclipseReader : EclipseProblems {
   FlowField result() const {
     FlowField field;
     field.date = dates_;
+    field.notes = notes_;
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (flow_cell_volume(cells_[c]) <= 0) continue;
@@ -223,6 +228,7 @@ class EclipseReader : EclipseProblems {
   EclipseFiles files_;
   FlowQuantity quantity_;
   MapAxes axes_;
+  std::vector<std::string> notes_;           ///< FlowField::notes.
   std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
   std::vector<double> dates_;                ///< s since 1970.
   std::vector<std::vector<double>> values_;  ///< per report, Pa or K.

@@ -7,8 +7,9 @@
 namespace faultsim {
 
 /// Reads pressures (PRESSURE) or temperatures (TEMP) of the active cells of a grid in Eclipse's
-/// formats, with the reports of its restart files. Units are those that the files say: GRIDUNIT of
-/// the grid, METRIC, FIELD or LAB of the restarts. Coordinates are those of the map, as
+/// formats, with the reports of its restart files. Units are those that the files say: lengths as
+/// eclipse_length decides (a contradiction is in FlowField::notes), METRIC, FIELD or LAB of the
+/// restarts. Coordinates are those of the map, as
 /// MAPAXES says where the grid has it and its coordinates are not on the map already. Cells without
 /// volume are left out; connections between cells that do not touch and throws of faults do not
 /// matter here.

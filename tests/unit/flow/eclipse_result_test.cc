@@ -167,6 +167,24 @@ TEST_F(EclipseResult, IsTheSameInOtherUnits) {
   }
 }
 
+/// Programs that export grids write GRIDUNIT without converting: what is beside the grid decides.
+TEST_F(EclipseResult, HasLengthsAsTheFilesBesideItSay) {
+  write_grid({});
+  write_restart({});
+  const FlowField metric = read();
+  EXPECT_TRUE(metric.notes.empty());
+  const Deck feet{.unit_number = 2, .to_length = 1 / 0.3048, .to_pressure = 1};
+  write_grid(feet);
+  write_restart(feet);
+  const FlowField field = read();
+  EXPECT_NEAR(field.cells[1].low.z(), metric.cells[1].low.z(), 1e-3);
+  EXPECT_NEAR(field.cells[1].high.x(), metric.cells[1].high.x(), 1e-3);
+  ASSERT_EQ(field.notes.size(), 1u);
+  EXPECT_EQ(field.notes[0],
+            "leaves its unit of length open: GRIDUNIT says METRES, INTEHEAD of CASE.UNRST FIELD: "
+            "lengths were taken as feet");
+}
+
 /// A grid whose x points north and y west, with its origin at 10 km, 20 km.
 TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
   write_grid({});
