@@ -116,11 +116,15 @@ struct LayeredFault {
 };
 
 /// Sizes of cells, m: at the faults `at_faults` and beside them `growth` per metre more, up to
-/// `far`; beside faults the same above and below the reservoir layers.
+/// `far`; beside faults the same above and below the reservoir layers. Along dividers cells are
+/// `at_dividers` at most: no rock slides there, but pressures end.
 struct BodyCells {
   double at_faults = 50;
   double far = 1000;
   double growth = 0.2;
+  double at_dividers = std::numeric_limits<double>::quiet_NaN();  ///< NaN: 8 at_faults.
+
+  double beside_dividers() const { return at_dividers > 0 ? at_dividers : 8 * at_faults; }
 };
 
 /// What a body is built of. Horizons go from top to bottom; layer k is above horizon k, the last

@@ -32,7 +32,8 @@ class MapMesher {
 
   int vertex_at(const Vector2d& at);
   void add_sides();
-  std::vector<double> graded_parts(const Vector2d& a, const Vector2d& b) const;
+  std::vector<Vector2d> graded_points(const MapLine& line) const;
+  std::vector<Vector2d> graded_between(const std::vector<Vector2d>& way) const;
   double size_at(const Vector2d& at) const;
   void triangulate();
   bool is_encroaching(const Vector2d& at, int a, int b) const {
@@ -63,7 +64,9 @@ MapMesher::MapMesher(const LayeredBody& body, const MapLines& lines, std::vector
     : body_(body), input_(lines), problems_(problems) {
   for (const MapLine& line : lines.lines) {
     lines_.emplace_back();
-    for (const Vector2d& p : line.points) lines_.back().push_back(vertex_at(p));
+    const bool is_fault = std::ssize(lines_) <= lines.n_faults;
+    for (const Vector2d& p : is_fault ? line.points : graded_points(line))
+      lines_.back().push_back(vertex_at(p));
   }
   add_sides();
 }
@@ -80,31 +83,57 @@ int MapMesher::vertex_at(const Vector2d& at) {
 }
 
 double MapMesher::size_at(const Vector2d& at) const {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const MapLine& line : input_.lines)
-    nearest = std::min(nearest, nearest_on_line(line.points, at).distance);
-  return std::min(body_.cells.far, body_.cells.at_faults + body_.cells.growth * nearest);
+  double size = body_.cells.far;
+  for (std::size_t k = 0; k < input_.lines.size(); ++k) {
+    const double away = nearest_on_line(input_.lines[k].points, at).distance;
+    const double there = input_.is_fault(static_cast<int>(k)) ? body_.cells.at_faults
+                                                              : body_.cells.beside_dividers();
+    size = std::min(size, there + body_.cells.growth * away);
+  }
+  return size;
 }
 
-/// Parts of the way from a to b, in (0, 1), that divide it as sizes say.
-std::vector<double> MapMesher::graded_parts(const Vector2d& a, const Vector2d& b) const {
+/// A divider's points that are kept, and others between them as sizes say.
+std::vector<Vector2d> MapMesher::graded_points(const MapLine& line) const {
+  std::vector<Vector2d> points = {line.points.front()}, way = points;
+  for (std::size_t k = 1; k < line.points.size(); ++k) {
+    way.push_back(line.points[k]);
+    if (!line.is_kept[k]) continue;
+    const std::vector<Vector2d> between = graded_between(way);
+    points.insert(points.end(), between.begin(), between.end());
+    points.push_back(line.points[k]);
+    way = {line.points[k]};
+  }
+  return points;
+}
+
+/// Points within a way that divide it as sizes say.
+std::vector<Vector2d> MapMesher::graded_between(const std::vector<Vector2d>& way) const {
   constexpr std::size_t kSteps = 200;
-  const double length = (b - a).norm();
+  std::vector<double> along = {0};
+  for (std::size_t k = 1; k < way.size(); ++k)
+    along.push_back(along.back() + (way[k] - way[k - 1]).norm());
+  const auto at = [&](double part) -> Vector2d {
+    const double place = part * along.back();
+    std::size_t k = 0;
+    while (k + 2 < way.size() && along[k + 1] < place) ++k;
+    return way[k] + (way[k + 1] - way[k]) * ((place - along[k]) / (along[k + 1] - along[k]));
+  };
   std::array<double, kSteps + 1> cells = {0};
   for (std::size_t i = 0; i < kSteps; ++i) {
-    const Vector2d at = a + (b - a) * ((static_cast<double>(i) + 0.5) / kSteps);
-    cells[i + 1] = cells[i] + length / kSteps / size_at(at);
+    const double size = size_at(at((static_cast<double>(i) + 0.5) / kSteps));
+    cells[i + 1] = cells[i] + along.back() / kSteps / size;
   }
   const int n = std::max(1, static_cast<int>(std::lround(cells.back())));
-  std::vector<double> parts;
+  std::vector<Vector2d> points;
   std::size_t i = 0;
   for (int k = 1; k < n; ++k) {
     const double want = cells.back() * k / n;
     while (cells[i + 1] < want) ++i;
     const double step = (want - cells[i]) / (cells[i + 1] - cells[i]);
-    parts.push_back((static_cast<double>(i) + step) / kSteps);
+    points.push_back(at((static_cast<double>(i) + step) / kSteps));
   }
-  return parts;
+  return points;
 }
 
 /// The sides of the box, from corner to corner over the ends of lines there, in graded pieces.
@@ -122,8 +151,7 @@ void MapMesher::add_sides() {
     std::ranges::sort(stops, {}, [&](const Vector2d& p) { return (p - from).dot(along); });
     std::vector<int> side = {vertex_at(stops.front())};
     for (std::size_t k = 0; k + 1 < stops.size(); ++k) {
-      for (const double part : graded_parts(stops[k], stops[k + 1])) {
-        Vector2d at = stops[k] + part * (stops[k + 1] - stops[k]);
+      for (Vector2d at : graded_between({stops[k], stops[k + 1]})) {
         at[across] = from[across];
         side.push_back(vertex_at(at));
       }

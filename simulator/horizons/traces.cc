@@ -293,7 +293,6 @@ void LineJoiner::mark_kept(MapLine& line) const {
 
 /// Replaces the points between those that are kept by others at equal distances along the line.
 void LineJoiner::take_points(MapLine& line) const {
-  mark_kept(line);
   MapLine taken{line.name, {line.points.front()}, {true}};
   for (std::size_t from = 0; from + 1 < line.points.size();) {
     std::vector<double> along = {0};
@@ -342,8 +341,10 @@ MapLines LineJoiner::run() {
     if (body_.faults[f].last_end == TraceEnd::in_rock) check_tip(f, all_.lines[f].points.back());
   }
   check_meetings();
-  if (problems_.empty())
-    for (MapLine& line : all_.lines) take_points(line);
+  for (int line = 0; problems_.empty() && line < static_cast<int>(all_.lines.size()); ++line) {
+    mark_kept(all_.lines[line]);
+    if (all_.is_fault(line)) take_points(all_.lines[line]);
+  }
   return std::move(all_);
 }
 

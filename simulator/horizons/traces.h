@@ -24,11 +24,12 @@ struct MapLines {
   bool is_fault(int line) const { return line < n_faults; }
 };
 
-/// Joins ends at faults and at the box, finds crossings and takes points along each line at about
-/// the distance `cells.at_faults`. What cannot be is appended to problems, with its place: traces
-/// without length or outside of the box, ends that are near nothing they could end at, ends in the
-/// rock closer than a cell to another line, two faults that end at each other (V), lines that meet
-/// at less than 25 degrees or closer to the next meeting point than half a cell.
+/// Joins ends at faults and at the box, finds crossings and takes points along each fault at about
+/// the distance `cells.at_faults`; dividers keep theirs. What cannot be is appended to problems,
+/// with its place: traces without length or outside of the box, ends that are near nothing they
+/// could end at, ends in the rock closer than a cell to another line, two faults that end at each
+/// other (V), lines that meet at less than 25 degrees or closer to the next meeting point than half
+/// a cell.
 MapLines meeting_lines(const LayeredBody& body, std::vector<Problem>& problems);
 
 /// "x 10, y 20 m".

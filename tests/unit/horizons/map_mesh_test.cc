@@ -114,5 +114,24 @@ TEST(Compartments, AreFilledUpToFaultsAndDividers) {
   EXPECT_THAT(problems.back().what, testing::HasSubstr("outside of the box"));
 }
 
+/// Pressures end at a divider and no rock slides: cells there are larger than at faults, and of the
+/// fault's size where it begins at one.
+TEST(Dividers, HaveLargerCellsThanFaults) {
+  LayeredBody body = reservoir_body();
+  body.cells = {50, 800, 0.3, 300};
+  body.faults = {dipping_fault()};
+  body.dividers = {{"on", {{0, 0}, {1500, 100}, {1510, 101}, {3000, 200}}}};
+  const MapMesh map = meshed(body);
+  const std::vector<int>& line = map.lines[1];
+  const auto length = [&](std::size_t k) {
+    return (map.vertices[line[k + 1]] - map.vertices[line[k]]).norm();
+  };
+  EXPECT_LT(length(0), 100);
+  for (std::size_t k = 0; k + 1 < line.size(); ++k) EXPECT_LT(length(k), 400) << k;
+  EXPECT_GT(length(line.size() - 2), 200);
+  EXPECT_LT(line.size(), 20u);
+  EXPECT_EQ((BodyCells{.at_faults = 50}.beside_dividers()), 400);
+}
+
 }  // namespace
 }  // namespace faultsim::horizons
