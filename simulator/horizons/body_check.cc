@@ -77,7 +77,8 @@ void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::
   check.demand(top <= body.top && bottom >= body.base && top - bottom > body.cells.at_faults,
                pointer, concat(name, " reaches from z ", bottom, " to z ", top, " m"),
                "give a top above its bottom by more than a cell, within the box");
-  const FaultThrow& moved = fault.moved;
+  if (!fault.moved) return;
+  const FaultThrow& moved = *fault.moved;
   check.demand(
       std::isfinite(moved.down) && moved.footwall_share >= 0 && moved.footwall_share <= 1 &&
           moved.reach > 0 && !(moved.taper < 0),

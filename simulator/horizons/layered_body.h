@@ -112,7 +112,7 @@ struct LayeredFault {
   std::vector<DipPoint> listric;      ///< from top to bottom or back; empty: `dip` holds.
   std::optional<double> top;          ///< where it ends upwards; empty: at the top of the box.
   std::optional<double> bottom;       ///< where it ends downwards; empty: at the base.
-  FaultThrow moved;
+  std::optional<FaultThrow> moved;    ///< empty: horizons of points say it.
 };
 
 /// Sizes of cells, m: at the faults `at_faults` and beside them `growth` per metre more, up to

@@ -20,7 +20,7 @@ std::vector<double> tapers(const LayeredFault& fault, const MapMesh& map, int li
     along.push_back(along.back() +
                     (map.vertices[vertices[k]] - map.vertices[vertices[k - 1]]).norm());
   const double length = along.back();
-  const double over = std::isfinite(fault.moved.taper) ? fault.moved.taper : length / 4;
+  const double over = std::isfinite(fault.moved->taper) ? fault.moved->taper : length / 4;
   std::vector<double> parts;
   for (const double s : along) {
     double part = 1;
@@ -49,7 +49,7 @@ struct HeldThrow {
 void hold_sides(const MapMesh& map, const CutMap& cut, const LayeredFault& fault,
                 const TracePiece& piece, const std::vector<double>& parts, HeldThrow& held) {
   const std::vector<int>& line = map.lines[piece.fault];
-  const double up = fault.moved.down * fault.moved.footwall_share, down = fault.moved.down - up;
+  const double up = fault.moved->down * fault.moved->footwall_share, down = fault.moved->down - up;
   const bool is_forward = line[piece.k] == piece.side->a;
   for (const int triangle : {piece.side->left, piece.side->right}) {
     const bool is_left = (triangle == piece.side->left) == is_forward;
@@ -72,13 +72,13 @@ MatrixXd throw_fields(const LayeredBody& body, const MapMesh& map, const CutMap&
   const std::vector<TracePiece> pieces = trace_pieces(map, sides);
   for (int f = 0; f < map.n_faults; ++f) {
     const LayeredFault& fault = body.faults[f];
-    if (fault.moved.down == 0) continue;
+    if (!fault.moved || fault.moved->down == 0) continue;
     const std::vector<double> parts = tapers(fault, map, f);
     HeldThrow held{std::vector<bool>(cut.n_places(), false), VectorXd::Zero(n)};
     for (const TracePiece& piece : pieces)
       if (piece.fault == f) hold_sides(map, cut, fault, piece, parts, held);
     // Parts of the map that nothing holds stay where they are: a held one moves by 1e-14 less.
-    const double reach2 = fault.moved.reach * fault.moved.reach;
+    const double reach2 = fault.moved->reach * fault.moved->reach;
     const double least = 1e-14 / (body.high - body.low).squaredNorm();
     fields.col(f) = fill_between(op, op.area * std::max(1 / reach2, least), held.is_held, held.up);
   }
@@ -86,7 +86,8 @@ MatrixXd throw_fields(const LayeredBody& body, const MapMesh& map, const CutMap&
 }
 
 double throw_in_depth(const LayeredFault& fault, double z) {
-  const double over = 2 * std::abs(fault.moved.down);
+  if (!fault.moved) return 1;
+  const double over = 2 * std::abs(fault.moved->down);
   double inside = std::numeric_limits<double>::infinity();
   if (fault.top) inside = std::min(inside, *fault.top - z);
   if (fault.bottom) inside = std::min(inside, z - *fault.bottom);

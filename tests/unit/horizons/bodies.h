@@ -109,7 +109,7 @@ inline LayeredBody random_body(unsigned seed) {
     one.listric = listric(dip * kDegree, std::max(40.0, dip - between(0, 22)) * kDegree);
     one.top = -1950;
     one.bottom = -3100;
-    one.moved = {between(-220, 220), 0.5, 900};
+    one.moved = FaultThrow{between(-220, 220), 0.5, 900};
     return one;
   };
   const auto trace = [&](double x0, double y0, double x1, double y1) {

@@ -75,7 +75,7 @@ TEST(BuildBody, WithoutFaultsIsLayers) {
 TEST(BuildBody, ADippingFaultWithThrowIsExact) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
-  body.faults[0].moved = {100};
+  body.faults[0].moved = FaultThrow{100};
   body.compartments = {{"west", {-1000, 0}, {-1, 0, -1}}, {"east", {1000, 0}, {-1, 1, -1}}};
   const BuiltBody built = build_body(body, "body");
   const SideVolumes volumes(built);
@@ -97,7 +97,7 @@ TEST(BuildBody, ADippingFaultWithThrowIsExact) {
 TEST(BuildBody, ADippingFaultIsCutAllOver) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
-  body.faults[0].moved = {100};
+  body.faults[0].moved = FaultThrow{100};
   const BuiltBody built = build_body(body, "body");
   const Mesh mesh = cut(built.mesh, "body");
   ASSERT_EQ(mesh.faults.size(), 1u);
@@ -135,7 +135,7 @@ TEST(BuildBody, AFaultInTheRockHasATipAllAround) {
   fault.first_end = fault.last_end = TraceEnd::in_rock;
   fault.top = -1500;
   fault.bottom = -2500;
-  fault.moved = {80, 0.5, 600};
+  fault.moved = FaultThrow{80, 0.5, 600};
   body.faults = {fault};
   const BuiltBody built = build_body(body, "body");
   EXPECT_NEAR(area_of(built.mesh, built.mesh.faults[0]), 2000 * 1000 / std::sin(60 * kDegree),
@@ -177,7 +177,7 @@ TEST(BuildBody, ThrowTapersToATip) {
   LayeredFault fault = dipping_fault();
   fault.trace = {{0, -2000}, {0, 1000}};
   fault.last_end = TraceEnd::in_rock;
-  fault.moved = {100, 0.25, 600, 1000};
+  fault.moved = FaultThrow{100, 0.25, 600, 1000};
   body.faults = {fault};
   const auto depth = horizon_beside(build_body(body, "body"));
   ASSERT_GT(depth.at(true).size(), 10u);
@@ -199,7 +199,7 @@ TEST(BuildBody, ReservoirsSideBySideAreJoinedWhereLinesCross) {
     LayeredFault fault = dipping_fault();
     fault.trace = {{0, -2000}, {0, 1500}};
     fault.last_end = TraceEnd::in_rock;
-    fault.moved = {450, 0.5, 900, taper};
+    fault.moved = FaultThrow{450, 0.5, 900, taper};
     body.faults = {fault};
     const BuiltBody built = build_body(body, "body");
     const Mesh mesh = cut(built.mesh, "body");
@@ -228,9 +228,9 @@ TEST(BuildBody, ATIsFoundByCut) {
   branch.dip = 70 * kDegree;
   branch.top = -1500;
   branch.bottom = -2600;
-  branch.moved = {60, 0.5, 600};
+  branch.moved = FaultThrow{60, 0.5, 600};
   body.faults = {dipping_fault(), branch};
-  body.faults[0].moved = {100};
+  body.faults[0].moved = FaultThrow{100};
   const BuiltBody built = build_body(body, "body");
   const Mesh mesh = cut(built.mesh, "body");
   EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
@@ -249,7 +249,7 @@ TEST(BuildBody, AnXIsFoundByCut) {
   crossing.top = -1500;
   crossing.bottom = -2600;
   body.faults = {dipping_fault(), crossing};
-  body.faults[0].moved = {100};
+  body.faults[0].moved = FaultThrow{100};
   const BuiltBody built = build_body(body, "body");
   const Mesh mesh = cut(built.mesh, "body");
   EXPECT_EQ(n_faces(mesh), n_facets(built.mesh));
@@ -276,7 +276,7 @@ TEST(BuildBody, AllNumbersThatMakeNoSenseAreToldAtOnce) {
   body.faults = {dipping_fault()};
   body.faults[0].dip = 91 * kDegree;
   body.faults[0].bottom = -5000;
-  body.faults[0].moved.reach = 0;
+  body.faults[0].moved = FaultThrow{100, 0.5, 0};
   body.compartments = {{"west", {0, 0}, {1}}};
   const std::string said = refusal_of(body);
   for (const char* what :

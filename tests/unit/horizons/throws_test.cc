@@ -15,7 +15,7 @@ using test::reservoir_body;
 TEST(Throws, FadeWithTheirReach) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
-  body.faults[0].moved = {100, 0.25, 800};
+  body.faults[0].moved = FaultThrow{100, 0.25, 800};
   std::vector<Problem> problems;
   const MapMesh map = mesh_map(body, meeting_lines(body, problems), problems);
   ASSERT_TRUE(problems.empty());
@@ -35,7 +35,7 @@ TEST(Throws, FadeWithTheirReach) {
 
 TEST(Throws, FallToNothingAtEndsInDepth) {
   LayeredFault fault = dipping_fault();
-  fault.moved = {100};
+  fault.moved = FaultThrow{100};
   EXPECT_EQ(throw_in_depth(fault, -5000), 1);
   fault.top = -1000;
   fault.bottom = -3000;
