@@ -64,11 +64,13 @@ FineReach NodePlacer::reach_at(int vertex) const {
 void NodePlacer::fill(std::vector<double>& z, double to, double size,
                       const FineReach& reach) const {
   constexpr std::size_t kSteps = 64;
+  constexpr double kSlenderest = 8;  // cells as tall as this many times their width are flat
+  const double tallest = std::min(body_.cells.far, kSlenderest * size);
   const double from = z.back(), step = (to - from) / kSteps;
   std::array<double, kSteps + 1> cells = {0};
   for (std::size_t i = 0; i < kSteps; ++i) {
     const double away = reach.away(from + step * (static_cast<double>(i) + 0.5));
-    cells[i + 1] = cells[i] + step / std::min(body_.cells.far, size + body_.cells.growth * away);
+    cells[i + 1] = cells[i] + step / std::min(tallest, size + body_.cells.growth * away);
   }
   constexpr double kTallest = 1.2;  // of a size: tall steps beside leaning pillars are steep
   const int n = std::max(1, static_cast<int>(std::ceil(cells.back() / kTallest)));
