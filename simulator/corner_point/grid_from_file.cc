@@ -79,7 +79,7 @@ class GridMaker {
       refuse("GRIDUNIT says \"" + file_.length_unit + "\"",
              "METRES, FEET and CM are known; mend GRIDUNIT in the flow model");
     }
-    const EclipseLength length = eclipse_length(file_, eclipse_depth_ratio(file_));
+    const EclipseLength length = eclipse_length(file_, depth_ratio(file_));
     metre_ = length.metre;
     if (!length.remark.empty()) grid_.remarks.push_back(length.remark);
   }

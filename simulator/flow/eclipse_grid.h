@@ -49,8 +49,8 @@ struct EclipseLength {
 /// file, each in its own unit: 1 where both are in the unit of INTEHEAD; none: not known.
 EclipseLength eclipse_length(const EclipseGrid& grid, std::optional<double> depth_ratio);
 
-/// That ratio: none where the INIT file has no DEPTH of each active cell, or arrays do not fit.
-std::optional<double> eclipse_depth_ratio(const EclipseGrid& grid);
+/// That median, of active cells by the mean of their corners' depths; none without DEPTH.
+std::optional<double> depth_ratio(const EclipseGrid& grid);
 
 /// METRES, FEET, CM in m; nothing for another word.
 std::optional<double> eclipse_metre(const std::string& unit);

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
 #include "simulator/common/errors.h"
 #include "simulator/flow/eclipse_grid.h"
@@ -16,29 +18,38 @@ std::string metre_words(double metre) {
   return metre == 1 ? "metres" : metre == 0.01 ? "centimetres" : "feet";
 }
 
+/// Mean depth of the corners of a cell, in the unit of the file.
+double middle_depth(const EclipseGrid& grid, std::size_t cell) {
+  const auto nx = static_cast<std::size_t>(grid.size[0]),
+             ny = static_cast<std::size_t>(grid.size[1]);
+  const std::size_t i = cell % nx, j = cell / nx % ny, k = cell / (nx * ny);
+  double depth = 0;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const std::size_t column = 2 * i + corner % 2, row = 2 * j + corner / 2 % 2,
+                      level = 2 * k + corner / 4;
+    depth += static_cast<double>(grid.zcorn[(level * 2 * ny + row) * 2 * nx + column]) / 8;
+  }
+  return depth;
+}
+
 }  // namespace
 
-std::optional<double> eclipse_depth_ratio(const EclipseGrid& grid) {
-  const auto n_i = static_cast<std::size_t>(grid.size[0]),
-             n_j = static_cast<std::size_t>(grid.size[1]),
-             n_k = static_cast<std::size_t>(grid.size[2]), n_cells = n_i * n_j * n_k;
-  const bool has_active = grid.active.size() == n_cells;
-  if (grid.zcorn.size() != 8 * n_cells || !(has_active || grid.active.empty())) return std::nullopt;
+std::optional<double> depth_ratio(const EclipseGrid& grid) {
+  const auto n_of = [&](std::size_t axis) { return static_cast<std::size_t>(grid.size[axis]); };
+  const std::size_t n_cells = n_of(0) * n_of(1) * n_of(2);
+  if (grid.zcorn.size() != 8 * n_cells) return std::nullopt;
+  const auto is_active = [&](std::size_t cell) {
+    return grid.active.empty() || (cell < grid.active.size() && grid.active[cell] != 0);
+  };
   std::vector<double> ratios;
-  std::size_t n_active = 0;
+  std::size_t active = 0;
   for (std::size_t cell = 0; cell < n_cells; ++cell) {
-    if (has_active && grid.active[cell] == 0) continue;
-    if (n_active >= grid.cell_depth.size()) return std::nullopt;
-    const std::size_t i = cell % n_i, j = cell / n_i % n_j, k = cell / n_i / n_j;
-    double depth = 0;
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      const std::size_t x = 2 * i + corner % 2, y = 2 * j + corner / 2 % 2, z = 2 * k + corner / 4;
-      depth += static_cast<double>(grid.zcorn[x + 2 * n_i * (y + 2 * n_j * z)]) / 8;
-    }
-    const double ratio = static_cast<double>(grid.cell_depth[n_active++]) / depth;
+    if (!is_active(cell)) continue;
+    if (active >= grid.cell_depth.size()) return std::nullopt;  // of another grid, or none
+    const double ratio = static_cast<double>(grid.cell_depth[active++]) / middle_depth(grid, cell);
     if (std::isfinite(ratio)) ratios.push_back(ratio);
   }
-  if (ratios.empty() || n_active != grid.cell_depth.size()) return std::nullopt;
+  if (active != grid.cell_depth.size() || ratios.empty()) return std::nullopt;
   const auto middle = ratios.begin() + std::ssize(ratios) / 2;
   std::ranges::nth_element(ratios, middle);
   return *middle;

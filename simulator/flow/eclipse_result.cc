@@ -12,6 +12,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
+#include "simulator/common/units.h"
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/flow/eclipse_files.h"
 #include "simulator/flow/eclipse_grid.h"
@@ -26,6 +27,13 @@ using Opm::EclIO::ERst;
 /// A value in SI is size · number + zero.
 struct Scale {
   double size = 1, zero = 0;
+  double of(float number) const { return size * static_cast<double>(number) + zero; }
+};
+
+/// What a report has, as it stands in the file.
+struct ReportValues {
+  std::vector<float> number;
+  Scale scale;
 };
 
 /// Places in INTEHEAD, from 0 (Opm/output/eclipse/VectorItems/intehead.hpp says the same).
@@ -91,11 +99,12 @@ class EclipseReader : EclipseProblems {
     }
     if (grid.is_radial())
       return refuse(files_.grid, "is a radial grid", "corner-point grids are read");
-    std::vector<std::string> unit;
-    if (grid.hasKey("GRIDUNIT")) unit = grid.get<std::string>("GRIDUNIT");
-    const double metre = length_unit();
-    const bool is_on_map = unit.size() > 1 && unit[1].rfind("MAP", 0) == 0;
-    if (!is_on_map) take_axes(grid, metre);
+    const EclipseGrid arrays = read_eclipse_grid(files_.grid);
+    const double metre = take_length(arrays);
+    if (arrays.is_on_map)
+      say_on_map(grid);
+    else
+      take_axes(grid, metre);
     if (!problems_.empty()) return;
     grid.load_grid_data();
     for (int cell = 0; cell < grid.totalNumberOfCells(); ++cell) {
@@ -108,13 +117,22 @@ class EclipseReader : EclipseProblems {
     if (cells_.empty()) refuse(files_.grid, "has no active cell", "");
   }
 
-  /// m per unit of the grid: the files beside it say more of that than it does.
-  double length_unit() {
-    const EclipseGrid arrays = read_eclipse_grid(files_.grid);
-    const EclipseLength length = eclipse_length(arrays, eclipse_depth_ratio(arrays));
-    if (!length.remark.empty())
-      notes_.push_back("leaves its unit of length open: " + length.remark);
+  /// m per unit of the grid. Pressures lie where the faults of the same files do (corner_point).
+  double take_length(const EclipseGrid& arrays) {
+    if (!arrays.length_unit.empty() && !eclipse_metre(arrays.length_unit)) {
+      refuse(files_.grid, "GRIDUNIT says \"" + arrays.length_unit + "\"",
+             "METRES, FEET and CM are known; mend GRIDUNIT in the flow model");
+    }
+    const EclipseLength length = eclipse_length(arrays, depth_ratio(arrays));
+    if (!length.remark.empty()) notes_.push_back("has a grid of doubtful unit: " + length.remark);
     return length.metre;
+  }
+
+  void say_on_map(const EGrid& grid) {
+    if (grid.get_mapaxes().size() < 6) return;
+    notes_.emplace_back(
+        "has coordinates of the map already (GRIDUNIT says MAP): the MAPAXES of its grid are not "
+        "applied");
   }
 
   /// A point on the grid's y axis, its origin, a point on its x axis, on the map.
@@ -135,6 +153,21 @@ class EclipseReader : EclipseProblems {
                     "mend MAPAXES in the flow model, or remove it and give the scene's \"origin\"");
     }
     axes_ = {point(2), x.normalized(), y.normalized()};
+    say_moved();
+  }
+
+  /// Axes that leave everything where it is say nothing.
+  void say_moved() {
+    if (axes_.origin == Eigen::Vector2d(0, 0) && axes_.along_x == Eigen::Vector2d(1, 0) &&
+        axes_.along_y == Eigen::Vector2d(0, 1))
+      return;
+    const double azimuth = std::atan2(axes_.along_y.x(), axes_.along_y.y()) / kDegree;
+    const double turn =
+        axes_.along_x.x() * axes_.along_y.y() - axes_.along_x.y() * axes_.along_y.x();
+    notes_.push_back(concat("lies on the map where the MAPAXES of its grid say: its x = y = 0 at ",
+                            formatted("%.7g m, %.7g m, its y along the azimuth %.4g deg",
+                                      axes_.origin.x(), axes_.origin.y(), azimuth),
+                            turn < 0 ? ", its x to the left of that" : ""));
   }
 
   /// Corners come as (i, j) of the top, then of the bottom; VTK begins at the bottom and goes
@@ -150,12 +183,14 @@ class EclipseReader : EclipseProblems {
     cells_.push_back(flow_cell_around(corners));
   }
 
+  /// Arrays are read when they are asked for, and forgotten after their report: of files of many
+  /// gigabytes only the values are kept.
   void read_restart(const std::filesystem::path& file) {
     ERst restart(file.string());
     for (const int report : restart.listOfReportStepNumbers()) {
       if (problems_.size() >= kMostProblems) return;
-      restart.loadReportStepNumber(report);
       take_report(restart, report, file);
+      restart.clearData();
     }
   }
 
@@ -168,7 +203,7 @@ class EclipseReader : EclipseProblems {
     }
     const std::vector<int> head = restart.getRestartData<int>("INTEHEAD", report);
     if (head.size() <= kYear) return refuse(file, name + " has no date", "");
-    const std::vector<float> values = restart.getRestartData<float>(key, report);
+    const std::vector<float>& values = restart.getRestartData<float>(key, report);
     if (values.size() != cells_.size()) {
       return refuse(file,
                     concat(name, " is of another grid: it has ", values.size(), " values, and ",
@@ -181,14 +216,13 @@ class EclipseReader : EclipseProblems {
 
   void take_values(const std::vector<float>& values, const Scale& scale, const std::string& name,
                    const std::filesystem::path& file) {
-    std::vector<double> si;
-    for (const float value : values) {
-      si.push_back(scale.size * static_cast<double>(value) + scale.zero);
-      if (std::isfinite(si.back()) && si.back() >= 0) continue;
-      return refuse(file, concat(name, " has the value ", value, " in active cell ", si.size()),
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double si = scale.of(values[i]);
+      if (std::isfinite(si) && si >= 0) continue;
+      return refuse(file, concat(name, " has the value ", values[i], " in active cell ", i + 1),
                     "the values of all active cells are needed, and are absolute");
     }
-    values_.push_back(std::move(si));
+    values_.push_back({values, scale});
   }
 
   void take_date(const std::vector<int>& head, const std::string& name,
@@ -219,8 +253,9 @@ class EclipseReader : EclipseProblems {
     }
     field.value.resize(std::ssize(kept), std::ssize(dates_));
     for (Eigen::Index t = 0; t < field.value.cols(); ++t) {
+      const ReportValues& report = values_[static_cast<std::size_t>(t)];
       for (Eigen::Index c = 0; c < field.value.rows(); ++c)
-        field.value(c, t) = values_[static_cast<std::size_t>(t)][kept[static_cast<std::size_t>(c)]];
+        field.value(c, t) = report.scale.of(report.number[kept[static_cast<std::size_t>(c)]]);
     }
     return field;
   }
@@ -228,10 +263,10 @@ class EclipseReader : EclipseProblems {
   EclipseFiles files_;
   FlowQuantity quantity_;
   MapAxes axes_;
-  std::vector<std::string> notes_;           ///< FlowField::notes.
-  std::vector<FlowCell> cells_;              ///< active ones, in the order of the values.
-  std::vector<double> dates_;                ///< s since 1970.
-  std::vector<std::vector<double>> values_;  ///< per report, Pa or K.
+  std::vector<FlowCell> cells_;       ///< active ones, in the order of the values.
+  std::vector<double> dates_;         ///< s since 1970.
+  std::vector<ReportValues> values_;  ///< per report.
+  std::vector<std::string> notes_;    ///< FlowField::notes.
 };
 
 }  // namespace

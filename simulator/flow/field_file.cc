@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <string_view>
 #include <vector>
 
 #include "simulator/common/errors.h"
@@ -16,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostFileBytes = 1'000'000'000;
+constexpr std::size_t kMostCopiedBytes = 1'000'000'000;  // of tables; larger ones are mapped
 constexpr std::size_t kMostKeptBytes = 1'000'000'000;
 
 /// The files of a result as they stood when they were read.
@@ -80,12 +81,19 @@ class KeptFiles {
     if (is_eclipse_name(path)) {
       FieldFile file{std::make_shared<const FlowField>(read_eclipse(path, quantity)), ""};
       std::string prints;
-      for (const fs::path& one : files_of(path))
-        prints += fingerprint(read_input_or_throw(one.string(), kMostFileBytes));
+      for (const fs::path& one : files_of(path)) prints += fingerprint_of_file(one.string());
       file.fingerprint = fingerprint(prints);
       return file;
     }
-    const std::string text = read_input_or_throw(path.string(), kMostFileBytes);
+    std::error_code error;
+    if (fs::file_size(path, error) > kMostCopiedBytes && !error) {
+      const MappedFile large(path.string());
+      return of_table(large.text(), path, quantity);
+    }
+    return of_table(read_input_or_throw(path.string(), kMostCopiedBytes), path, quantity);
+  }
+
+  static FieldFile of_table(std::string_view text, const fs::path& path, FlowQuantity quantity) {
     return {std::make_shared<const FlowField>(parse_flow_csv(text, path.string(), quantity)),
             fingerprint(text)};
   }

@@ -15,10 +15,10 @@ struct FieldFile {
 };
 
 /// Reads a flow result by the kind of its file: EGRID and restart files (eclipse_result.h), else a
-/// table of cells (flow_csv.h). What was read last is
-/// kept, up to some 1 GB, and given again while the file's size and time stay what they were: the
-/// cases of an ensemble take turns among a few files.
-/// Safe to call from several threads, which take turns.
+/// table of cells (flow_csv.h). Files may be larger than the memory: of restarts the one array of
+/// each report is read, tables above 1 GB are read where they lie. What was read last is kept, up
+/// to some 1 GB, and given again while the file's size and time stay what they were: the cases of
+/// an ensemble take turns among a few files. Safe to call from several threads, which take turns.
 /// @throws InputError with all that is wrong with the file.
 FieldFile read_field_file(const std::filesystem::path& path, FlowQuantity quantity);
 

@@ -18,5 +18,17 @@ TEST(Fingerprint, DependsOnEveryByteAndNothingElse) {
   EXPECT_EQ(fingerprint(std::string(100000, 'x')).size(), 32U);
 }
 
+TEST(Fingerprint, OfPiecesIsThatOfTheWhole) {
+  std::string text;
+  for (int i = 0; i < 3000; ++i) text += static_cast<char>(i * i % 251);
+  for (const std::size_t n : {1UL, 7UL, 1000UL, 3000UL}) {
+    FingerprintOfPieces print;
+    EXPECT_EQ(print.text(), fingerprint(""));
+    for (std::size_t at = 0; at < text.size(); at += n)
+      print.add(std::string_view(text).substr(at, n));
+    EXPECT_EQ(print.text(), fingerprint(text)) << n;
+  }
+}
+
 }  // namespace
 }  // namespace faultsim

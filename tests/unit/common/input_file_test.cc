@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "simulator/common/errors.h"
+#include "simulator/common/fingerprint.h"
 #include "simulator/common/printable.h"
 
 namespace faultsim {
@@ -34,6 +36,24 @@ TEST_F(InputFile, IsReadWhole) {
   EXPECT_EQ(read_input_file(path("a"), text.size()).what, "") << "as many bytes as allowed";
   EXPECT_EQ(read_input_file(path("a"), text.size() - 1).what, "has 100005 bytes");
   EXPECT_EQ(read_input_file(path("a"), text.size() - 1).cure, "at most 100004 are read");
+}
+
+/// As files that do not fit into memory are, in pieces or mapped.
+TEST_F(InputFile, IsLookedAtWithoutACopy) {
+  std::string text;
+  for (int i = 0; text.size() < 3'000'000; ++i) text += std::to_string(i) + "\n";
+  std::ofstream(path("a"), std::ios::binary) << text;
+  std::string pieces;
+  EXPECT_EQ(visit_input_file(path("a"), [&](std::string_view piece) { pieces += piece; }).what, "");
+  EXPECT_EQ(pieces, text);
+  EXPECT_EQ(fingerprint_of_file(path("a")), fingerprint(text));
+  EXPECT_EQ(MappedFile(path("a")).text(), text);
+  std::ofstream(path("empty")).close();
+  EXPECT_EQ(MappedFile(path("empty")).text(), "");
+  for (const std::string& odd : {folder_.string(), path("none"), std::string("/dev/zero")}) {
+    EXPECT_THROW(MappedFile{odd}, InputError) << odd;
+    EXPECT_THROW(fingerprint_of_file(odd), InputError) << odd;
+  }
 }
 
 TEST_F(InputFile, IsARegularFileOrRefused) {

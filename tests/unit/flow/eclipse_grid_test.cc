@@ -106,6 +106,16 @@ TEST_F(EclipseGridFile, HasUnitsAndRegionsOfTheFilesBesideIt) {
   EXPECT_THAT(grid.equilibrium_region, ElementsAre(3));
   EXPECT_THAT(grid.fluid_region, ElementsAre(7));
   EXPECT_THAT(grid.cell_depth, ElementsAre(104));
+  // Corners 0, 1, 4, 5, 8, 9, 12, 13 of ZCORN are those of the active cell.
+  EXPECT_DOUBLE_EQ(*depth_ratio(grid), 104 / 106.5);
+  EclipseGrid other = grid;
+  other.active = {0, 1};
+  EXPECT_DOUBLE_EQ(*depth_ratio(other), 104 / 108.5);
+  other.active.clear();
+  EXPECT_FALSE(depth_ratio(other)) << "a depth too few";
+  other = grid;
+  other.zcorn.pop_back();
+  EXPECT_FALSE(depth_ratio(other));
 }
 
 TEST_F(EclipseGridFile, IsRefusedWithAllThatIsWrong) {

@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <opm/io/eclipse/EclOutput.hpp>
 
@@ -19,7 +22,9 @@ namespace faultsim {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::ThrowsMessage;
 
 /// 3 x 2 x 2 cells of 100 x 200 x 10 units that dip along x, with a throw of 5 before the last
@@ -167,22 +172,23 @@ TEST_F(EclipseResult, IsTheSameInOtherUnits) {
   }
 }
 
-/// Programs that export grids write GRIDUNIT without converting: what is beside the grid decides.
-TEST_F(EclipseResult, HasLengthsAsTheFilesBesideItSay) {
+/// Grids that were exported in feet under the name of metres, as programs do.
+TEST_F(EclipseResult, HasLengthsInTheUnitOfItsRestartsWhereTheGridContradictsThem) {
   write_grid({});
   write_restart({});
   const FlowField metric = read();
-  EXPECT_TRUE(metric.notes.empty());
-  const Deck feet{.unit_number = 2, .to_length = 1 / 0.3048, .to_pressure = 1};
+  EXPECT_THAT(metric.notes, IsEmpty());
+  Deck feet{.unit_number = 2, .to_length = 1 / 0.3048, .to_pressure = 1e5 / 6894.757293168361};
   write_grid(feet);
   write_restart(feet);
-  const FlowField field = read();
-  EXPECT_NEAR(field.cells[1].low.z(), metric.cells[1].low.z(), 1e-3);
-  EXPECT_NEAR(field.cells[1].high.x(), metric.cells[1].high.x(), 1e-3);
-  ASSERT_EQ(field.notes.size(), 1u);
-  EXPECT_EQ(field.notes[0],
-            "leaves its unit of length open: GRIDUNIT says METRES, INTEHEAD of CASE.UNRST FIELD: "
-            "lengths were taken as feet");
+  const FlowField other = read();
+  EXPECT_NEAR(other.cells[3].low.z(), metric.cells[3].low.z(), 1e-3);
+  EXPECT_NEAR(other.cells[3].high.x(), metric.cells[3].high.x(), 1e-3);
+  EXPECT_THAT(other.notes, ElementsAre(HasSubstr("GRIDUNIT says METRES, INTEHEAD of CASE.UNRST "
+                                                 "FIELD: lengths were taken as feet")));
+  feet.unit = "YARDS";
+  write_grid(feet);
+  EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr("GRIDUNIT says \"YARDS\"")));
 }
 
 /// A grid whose x points north and y west, with its origin at 10 km, 20 km.
@@ -198,6 +204,9 @@ TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
     write_grid(deck);
     const FlowField there = read();
     ASSERT_EQ(there.cells.size(), own.cells.size());
+    EXPECT_THAT(there.notes,
+                ElementsAre("lies on the map where the MAPAXES of its grid say: its x = y = 0 at "
+                            "10000 m, 20000 m, its y along the azimuth -90 deg"));
     for (std::size_t f = 0; f < own.cells.size(); ++f) {
       EXPECT_NEAR(there.cells[f].low.x(), 10000 - own.cells[f].high.y(), 0.01);
       EXPECT_NEAR(there.cells[f].low.y(), 20000 + own.cells[f].low.x(), 0.01);
@@ -207,10 +216,57 @@ TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
   }
   write_grid({.map_axes = turned, .map_unit = "METRES", .relative_to = "MAP"});
   EXPECT_EQ(read().cells[3].low, own.cells[3].low);
+  EXPECT_THAT(read().notes, ElementsAre(HasSubstr("has coordinates of the map already")));
   write_grid({.map_axes = {0, 1, 0, 0, 1, 0}, .map_unit = "METRES"});
   EXPECT_EQ(read().cells[3].low, own.cells[3].low);
+  EXPECT_THAT(read().notes, IsEmpty());
+  write_grid({.map_axes = {-7, 0, -7, 5, 4, 5}, .map_unit = "METRES"});  // y points south
+  EXPECT_THAT(read().notes, ElementsAre(HasSubstr("180 deg, its x to the left of that")));
   write_grid({.map_axes = {0, 0, 0, 0, 1, 0}});
   EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr("MAPAXES")));
+}
+
+/// 5 GB with a hole between two reports: offsets do not fit into 32 bits, and nothing of what is
+/// not asked for is read.
+TEST_F(EclipseResult, MayBeLargerThanTheMemoryOfItsValues) {
+  write_grid({});
+  write_restart({});
+  const FieldFile small = read_field_file(folder_ / "CASE.EGRID", FlowQuantity::pressure);
+  const std::string part = (folder_ / "PART").string(), whole = (folder_ / "CASE.UNRST").string();
+  const auto bytes_of = [](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  {
+    Opm::EclIO::EclOutput out(part, false);
+    write_report(out, {}, 0, 11);
+  }
+  const std::string first = bytes_of(part);
+  {
+    Opm::EclIO::EclOutput out(part, false);
+    write_report(out, {}, 1, 11);
+  }
+  const std::string second = bytes_of(part);
+  std::ofstream file(whole, std::ios::binary);
+  file << first;
+  // The head of an array, and where its blocks of 1000 numbers, each between its length, would end.
+  constexpr std::uint32_t kNumbers = 1'250'000'000, kBlock = 1000;
+  const auto put = [&](std::uint32_t n) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+      file.put(static_cast<char>(static_cast<unsigned char>(n >> shift)));
+  };
+  put(16);
+  file << "SWAT    ";
+  put(kNumbers);
+  file << "REAL";
+  put(16);
+  file.seekp(4LL * kNumbers + 8LL * (kNumbers / kBlock), std::ios::cur);
+  file << second;
+  file.close();
+  ASSERT_GT(fs::file_size(whole), 5'000'000'000U);
+  const FlowField large = read();
+  EXPECT_EQ(large.value, small.field->value);
+  EXPECT_EQ(large.date, small.field->date);
 }
 
 TEST_F(EclipseResult, MayHaveAFilePerReport) {
