@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/dates.h"
+
 namespace faultsim {
 namespace {
 
@@ -96,6 +98,13 @@ double own_excess(const Scene& scene, std::size_t region, double depth, DepthSid
 double surface_pressure(const InitialState& state) {
   if (state.kind == InitialStressKind::profile) return state.pressure;
   return state.water_density * state.gravity * state.water_depth;
+}
+
+/// InitialRegion::source of a field's blocks.
+std::string source_of_pressure(const Scene& scene) {
+  const FlowLoad& load = scene.pressure_field;
+  if (scene.initial.pressure_from == InitialPressure::given || !load.is_given()) return "";
+  return "report of " + date_text(load.field->date[static_cast<std::size_t>(load.reference)]);
 }
 
 }  // namespace
@@ -198,7 +207,7 @@ std::vector<InitialRegion> initial_regions(const Scene& scene) {
   std::vector<InitialRegion> rows;
   const auto add = [&](const std::string& name, double depth, double excess) {
     const StressAtDepth at = initial_state(scene, -depth);
-    rows.push_back({name, depth, at.sigma[8], at.sigma[0], at.sigma[4], at.pressure + excess});
+    rows.push_back({name, depth, at.sigma[8], at.sigma[0], at.sigma[4], at.pressure + excess, ""});
   };
   if (scene.geometry_kind == GeometryKind::field) {
     for (std::size_t i = 0; i < scene.field.blocks.size(); ++i) {
@@ -206,6 +215,7 @@ std::vector<InitialRegion> initial_regions(const Scene& scene) {
       const DepthInterval reservoir = reservoir_range(scene.field, block);
       const double depth = 0.5 * (reservoir.top + reservoir.bottom);
       add(block.name, depth, own_pressure_excess(scene, i, -depth));
+      rows.back().source = source_of_pressure(scene);
     }
     return rows;
   }

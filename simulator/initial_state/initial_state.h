@@ -75,11 +75,12 @@ double own_pressure_excess(const Scene& scene, std::size_t region, double z,
 /// The initial state of one pressure region, for reports.
 struct InitialRegion {
   std::string name;
-  double depth = 0;     ///< m, mid-depth of the region.
-  double vertical = 0;  ///< σ_v, total, Pa, tension > 0.
-  double across = 0;    ///< total horizontal stress across the faults (x), Pa.
-  double along = 0;     ///< total horizontal stress along the faults (y), Pa.
-  double pressure = 0;  ///< p0 of the region, Pa.
+  double depth = 0;         ///< m, mid-depth of the region.
+  double vertical = 0;      ///< σ_v, total, Pa, tension > 0.
+  double across = 0;        ///< total horizontal stress across the faults (x), Pa.
+  double along = 0;         ///< total horizontal stress along the faults (y), Pa.
+  double pressure = 0;      ///< p0 of the region, Pa.
+  std::string source = {};  ///< of p0: "report of 1990-01-01"; "" = the scene's own numbers.
 };
 /// Per pressure region; of a box without regions per fault, at its centre.
 std::vector<InitialRegion> initial_regions(const Scene& scene);

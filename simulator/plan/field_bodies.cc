@@ -24,8 +24,7 @@ std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
     const std::array<double, 2> east_of_west = {west[0] + beside, west[1] + beside},
                                 west_of_east = {east[0] - beside, east[1] - beside};
     const double half = 0.5 * scene.field.block_length;
-    bodies.push_back(
-        {.corners = between_sides(west, east, depths.top, depths.bottom, half), .region = b});
+    bodies.push_back({.corners = block_corners(scene, static_cast<std::size_t>(b)), .region = b});
     bodies.push_back({.corners = between_sides(west, east_of_west, depths.top, depths.bottom, half),
                       .region = n_blocks + b});
     bodies.push_back({.corners = between_sides(west_of_east, east, depths.top, depths.bottom, half),

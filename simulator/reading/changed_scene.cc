@@ -4,8 +4,10 @@
 #include <array>
 #include <set>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
+#include "simulator/common/ranges.h"
 #include "simulator/reading/scene_reader.h"
 
 /// What is read again when members of a document change.
@@ -102,6 +104,32 @@ SceneReader reader_of(const Touched& touched, unsigned sections, Relations relat
   return {changed.document, problems, members, std::move(reader.quantities())};
 }
 
+/// What initial pressures from a flow result's report were made of, beside the result and blocks.
+struct OfReport {
+  InitialState initial;
+  std::vector<double> dips;
+  explicit OfReport(const Scene& scene)
+      : initial(scene.initial), dips(mapped(scene.faults, &Fault::dip_from_vertical)) {}
+};
+
+/// Whether initial pressures of a scene are what they were, where they are those of a report: means
+/// over blocks between faults, above hydrostatic. What is read again says none, and gets them back.
+bool keeps_report(const OfReport& before, Scene& scene) {
+  const InitialState& old = before.initial;
+  InitialState& now = scene.initial;
+  if (old.pressure_from != now.pressure_from) return false;
+  if (now.pressure_from == InitialPressure::given) return true;
+  const auto hydrostatic = [](const InitialState& of) {
+    return std::tuple(of.kind, of.gravity, of.water_density, of.water_depth, of.pressure,
+                      of.pressure_gradient);
+  };
+  const bool is_given = now.overpressure != 0 && now.overpressure != old.overpressure;
+  if (is_given || hydrostatic(old) != hydrostatic(now) || OfReport(scene).dips != before.dips)
+    return false;
+  now.overpressure = old.overpressure;
+  return true;
+}
+
 /// False where there is a problem, or more must be read.
 bool read_sections(const Touched& touched, unsigned sections, Relations relations,
                    ChangedScene& changed) {
@@ -109,6 +137,7 @@ bool read_sections(const Touched& touched, unsigned sections, Relations relation
   SceneReader reader = reader_of(touched, sections, relations, changed, problems);
   if (!problems.empty()) return false;
   Scene& scene = changed.scene;
+  const OfReport report(scene);
   if ((sections & kMaterials) != 0) {
     scene.materials.clear();
     read_materials(reader, scene);
@@ -129,6 +158,7 @@ bool read_sections(const Touched& touched, unsigned sections, Relations relation
     scene.box.patches.clear();
     read_faults(reader, scene);
   }
+  if (!keeps_report(report, scene)) return false;
   if ((sections & kLoading) != 0) {
     scene.stages.clear();
     scene.pressure.clear();

@@ -153,6 +153,11 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
   const std::string at = "/initial_state/";
   InitialState& state = scene.initial;
   read_keys(reader, at, state);
+  if (state.pressure_from == InitialPressure::first_report && !reader.has("/pressure_field")) {
+    reader.problem(at + "pressure_from",
+                   "there is no \"pressure_field\" whose report it could take",
+                   "add one, or remove this line");
+  }
   if (!state.tensor) return;
   reader.require_symmetric(at + "tensor", *state.tensor);
   for (const char* key : {"vertical_stress", "vertical_stress_gradient", "ratio_across",
@@ -198,6 +203,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_initial_state(reader, scene);
   read_flow_loads(reader, scene);
   read_faults(reader, scene);
+  take_first_report(reader, scene);
   read_loading(reader, scene);
   scene.n_table_remarks = scene.remarks.size();
   read_output(reader, scene);

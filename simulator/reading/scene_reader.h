@@ -152,6 +152,12 @@ void read_csv_histories(SceneReader& reader, Scene& scene);  ///< part of read_l
 /// The files of /pressure_field and /temperature_field. @pre before faults and stages, whose dates
 /// may count from them.
 void read_flow_loads(SceneReader& reader, Scene& scene);
+/// Initial pressures of blocks from the report that the pressure field counts from, where
+/// /initial_state/pressure_from says so: each block's overpressure is the mean over its volume, as
+/// far as flow cells cover it, of what the report has above hydrostatic (above the profile). Of a
+/// column `overpressure`, which the horizontal stress goes with, is the mean over all blocks. @pre
+/// geometry, faults, initial state and flow loads are read.
+void take_first_report(SceneReader& reader, Scene& scene);
 /// Part of read_loading: which of their reports are taken, once it is known when the stages end.
 void choose_reports(SceneReader& reader, Scene& scene);
 /// The date of time 0, s since 1970: /start_date, else that of the reference of the pressure field,

@@ -1,9 +1,11 @@
 #include "simulator/scene/field_depths.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "simulator/flow/flow_mapping.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -70,6 +72,15 @@ std::vector<double> line_depths(const FieldGeometry& field) {
 
 double fault_x(const FieldGeometry& field, std::size_t fault) {
   return fault < field.blocks.size() ? field.blocks[fault].from : field.blocks.back().to;
+}
+
+CellCorners block_corners(const Scene& scene, std::size_t block) {
+  const DepthInterval depths = reservoir_range(scene.field, scene.field.blocks[block]);
+  const auto x_of = [&](std::size_t fault) {
+    return std::array{fault_x(scene, fault, depths.top), fault_x(scene, fault, depths.bottom)};
+  };
+  return between_sides(x_of(block), x_of(block + 1), depths.top, depths.bottom,
+                       0.5 * scene.field.block_length);
 }
 
 double fault_x(const Scene& scene, std::size_t fault, double depth) {

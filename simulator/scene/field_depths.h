@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "simulator/flow/flow_field.h"
 #include "simulator/scene/geometry.h"
 
 namespace faultsim {
@@ -42,6 +43,8 @@ DepthInterval all_faults_range(const FieldGeometry& field);
 /// Depths that must be grid lines, m: the surface and the base, tops of layers, edges of
 /// reservoirs, tips of faults; in an order of their own, the same for all offsets.
 std::vector<double> line_depths(const FieldGeometry& field);
+/// The reservoir of a block between its faults, in their planes (flow_field.h).
+CellCorners block_corners(const Scene& scene, std::size_t block);
 /// x of a field's fault at the pivot depth, and at any, m.
 double fault_x(const FieldGeometry& field, std::size_t fault);
 double fault_x(const Scene& scene, std::size_t fault, double depth);

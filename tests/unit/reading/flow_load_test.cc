@@ -8,7 +8,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/load_times.h"
+#include "simulator/reading/changed_scene.h"
 #include "simulator/reading/csv_tables.h"
 #include "simulator/reading/read_scene.h"
 #include "tests/unit/scene/rotliegend.h"
@@ -143,6 +145,92 @@ TEST_F(FlowLoads, AreTakenAtASectionInPlaneStrain) {
   ASSERT_FALSE(idle.remarks.empty());
   EXPECT_EQ(remark_text(idle.remarks[0]),
             "/pressure_field/y has no effect: it is the section of plane strain");
+}
+
+/// Cells over both blocks, of which the west one has two: 300 and 320 bar over halves of its
+/// depths.
+TEST_F(FlowLoads, GiveBlocksTheirInitialPressuresOnRequest) {
+  document_.value["initial_state"].erase("overpressure");
+  write("p.csv",
+        kCells +
+            ", 1990-01-01 [bar], 1994-01-01 [bar]\n-1500, 0, 2025, 3000, 9000, 150, 300, "
+            "200\n-1500, 0, 2150, 3000, 9000, 100, 320, 210\n500, 0, 2100, 1000, 9000, 900, "
+            "250, 200\n");
+  const Changes from_report = {{"/initial_state/pressure_from", "first_report"}};
+  const Scene own = scene(), read = scene(from_report);
+  for (const Block& block : own.field.blocks) EXPECT_FALSE(block.overpressure);
+  // Their shares are those within the block, 2000 to 2200 m, not those of the cells.
+  EXPECT_NEAR(initial_region_pressure(read, 0, 2100), 310e5, 1);
+  EXPECT_NEAR(initial_region_pressure(read, 1, 2100), 250e5, 1);
+  // Horizontal stress goes with the mean: blocks are alike in volume but for the faults' dips.
+  EXPECT_NEAR(initial_state(read, -2100).pressure, 280e5, 1e5);
+  const double pore = initial_state(read, -2100).pressure - initial_state(own, -2100).pressure;
+  EXPECT_NEAR(initial_state(read, -2100).sigma[0],
+              initial_state(own, -2100).sigma[0] + (own.initial.ratio_across - 1) * pore, 1);
+  EXPECT_EQ(initial_state(read, -2100).sigma[8], initial_state(own, -2100).sigma[8]);
+  const std::vector<InitialRegion> regions = initial_regions(read);
+  EXPECT_EQ(regions[1].source, "report of 1990-01-01");
+  EXPECT_NEAR(regions[1].pressure, 250e5, 1);
+  EXPECT_EQ(initial_regions(own)[1].source, "");
+  EXPECT_NE(case_identity(read), case_identity(own));
+  EXPECT_EQ(case_identity(scene({{"/initial_state/pressure_from", "given"}})), case_identity(own));
+  Changes later = from_report;
+  later.emplace_back("/pressure_field/reference", "1994-01-01");
+  later.emplace_back("/stages/0/until", "1995-01-01");
+  later.emplace_back("/pressure_field/end", "hold");
+  EXPECT_NEAR(initial_region_pressure(scene(later), 1, 2100), 200e5, 1);
+}
+
+TEST_F(FlowLoads, GiveNoInitialPressuresThatAreGiven) {
+  const Changes from_report = {{"/initial_state/pressure_from", "first_report"}};
+  EXPECT_THAT(refusal(from_report),
+              HasSubstr("/initial_state/overpressure: contradicts the initial pressures that"));
+  document_.value["initial_state"].erase("overpressure");
+  Changes own = from_report;
+  own.emplace_back("/geometry/blocks/1/overpressure", "5 bar");
+  EXPECT_THAT(refusal(own), HasSubstr("/geometry/blocks/1/overpressure: contradicts"));
+  write("p.csv", kCells +
+                     ", 1990-01-01 [bar], 1994-01-01 [bar]\n-1500, 0, 2100, 3000, 9000, 900, "
+                     "300, 200\n");
+  EXPECT_THAT(refusal(from_report), HasSubstr("the flow result covers nothing of east"));
+  document_.value.erase("pressure_field");
+  document_.value["start_date"] = "1990-01-01";
+  EXPECT_THAT(refusal(from_report),
+              HasSubstr("/initial_state/pressure_from: there is no \"pressure_field\""));
+}
+
+/// A scene at hand that becomes one of a report, other friction, ratios, fluid and dips with it,
+/// and back.
+TEST_F(FlowLoads, GiveInitialPressuresToScenesThatChange) {
+  document_.value["initial_state"].erase("overpressure");
+  write("p.csv", kCells +
+                     ", 1990-01-01 [bar], 1994-01-01 [bar]\n-1500, 0, 2100, 3000, 9000, 900, "
+                     "300, 200\n500, 0, 2100, 1000, 9000, 900, 250, 200\n");
+  const PlacedValue from = {"/initial_state/pressure_from", "first_report"};
+  const std::string dip = "/faults/1/dip_from_vertical", cohesion = "/friction/cohesion",
+                    ratio = "/initial_state/ratio_across", density = "/initial_state/water_density",
+                    overpressure = "/initial_state/overpressure";
+  ChangedScene changed;
+  changed.document = document_;
+  for (const std::vector<PlacedValue>& values : {std::vector<PlacedValue>{},
+                                                 {from},
+                                                 {from, {cohesion, "1 MPa"}},
+                                                 {from, {ratio, 0.8}},
+                                                 {from, {ratio, 0.8}, {density, "1100 kg/m3"}},
+                                                 {from, {ratio, 0.8}, {dip, "30 deg"}},
+                                                 {from},
+                                                 {}}) {
+    std::vector<Problem> problems;
+    ASSERT_TRUE(change_scene(document_, values, Relations::checked, changed, problems).empty());
+    EXPECT_THAT(problems, testing::IsEmpty());
+    JsonDocument document = document_;
+    for (const PlacedValue& one : values) put_value(document.value, one.pointer, one.value);
+    EXPECT_EQ(changed.canonical.text(), canonical_scene(read_scene(document)));
+  }
+  std::vector<Problem> problems;
+  change_scene(document_, {from, {overpressure, "5 bar"}}, Relations::checked, changed, problems);
+  ASSERT_EQ(problems.size(), 1);
+  EXPECT_EQ(problems[0].pointer, overpressure);
 }
 
 TEST_F(FlowLoads, SayWhatWasMadeOfTheirFile) {
