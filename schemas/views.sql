@@ -4,7 +4,7 @@
 -- anew.
 --
 -- How exact a result is (docs/model.md, section 12) stands beside its measures: surface_... are NULL
--- of exact operators, field_coverage without a flow result.
+-- of exact operators, field_coverage and field_assumed without a flow result.
 
 -- The values of a case's parameters, a row each.
 DROP VIEW IF EXISTS parameters;
@@ -41,7 +41,7 @@ SELECT k.name AS campaign, cc.position AS "case", c.identity, la.parameter_label
        u.error_of_stiffness AS surface_error_of_stiffness,
        u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
        u.error_of_stability AS surface_error_of_stability,
-       m.field_coverage
+       m.field_coverage, m.field_assumed
 FROM stage_metrics s
 JOIN names n ON n.id = s.stage_id AND n.name = ''
 JOIN cases c ON c.id = s.case_id
@@ -70,7 +70,7 @@ SELECT k.name AS campaign, cc.position AS "case", n.name AS stage, m.outcome, m.
        u.error_of_stiffness AS surface_error_of_stiffness,
        u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
        u.error_of_stability AS surface_error_of_stability,
-       m.field_coverage
+       m.field_coverage, m.field_assumed
 FROM stage_metrics s
 JOIN names n ON n.id = s.stage_id
 JOIN case_metrics m ON m.case_id = s.case_id
@@ -99,7 +99,7 @@ SELECT k.name AS campaign, cc.position AS "case", n.name AS stage, f.name AS fau
        u.error_of_stiffness AS surface_error_of_stiffness,
        u.error_of_traction AS surface_error_of_traction, u.error_of_slip AS surface_error_of_slip,
        u.error_of_stability AS surface_error_of_stability,
-       m.field_coverage
+       m.field_coverage, m.field_assumed
 FROM fault_metrics q
 JOIN names n ON n.id = q.stage_id
 JOIN names f ON f.id = q.fault_id

@@ -112,7 +112,8 @@ class Walk {
   }
   void object(const std::string& place, const json& baseline, const json& tonight) {
     for (const auto& [key, value] : baseline.items()) {
-      if (!is_compared(key) || (value.is_null() && later_fields().contains(key))) continue;
+      const bool was_kept = !later_fields().contains(key) || !(value.is_null() || value.empty());
+      if (!is_compared(key) || !was_kept) continue;
       const json& other = tonight.at(key);
       if (value.is_object() && other.is_object()) {
         object(concat(place, ", ", key), value, other);
@@ -184,13 +185,13 @@ int order(const CaseResult& a, const CaseResult& b, const Tolerances& tolerances
 std::vector<std::string> quantities() {
   CaseResult full;
   full.steps.emplace_back();
-  full.steps[0].pressure_change = {0};
+  full.steps[0].pressure_change = full.steps[0].temperature_change = {0};
   full.steps[0].faults.emplace_back();
   full.steps[0].creep = faultsim::StepCreep{0, 0, true, {{}}};
   full.events.emplace_back();
   full.episodes.emplace_back();
   full.surface.emplace().stability = 0;
-  full.field_coverage = 0;
+  full.field_coverage = full.field_assumed = 0;
   std::map<std::string, double> scales;
   json document = faultsim::result_to_json(full);
   document["pressure_margin_pa"] = 0;

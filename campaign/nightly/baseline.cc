@@ -215,10 +215,15 @@ void write_baseline(const std::filesystem::path& folder, const Baseline& baselin
 std::string result_digest(const CaseResult& result) {
   constexpr int kAlwaysIn = 13;  // the store's version up to whose fields the first digests went
   json document = faultsim::result_to_json(bare(result));
-  faultsim::for_each_field(result, [&document](const faultsim::Field& field, const auto&) {
-    const std::string key(field.key);
-    if (field.since > kAlwaysIn && document[key].is_null()) document.erase(key);
-  });
+  const auto forget_absent = [](json& object) {
+    return [&object](const faultsim::Field& field, const auto&) {
+      const std::string key(field.key);
+      if (field.since > kAlwaysIn && object[key].empty()) object.erase(key);  // null or []
+    };
+  };
+  faultsim::for_each_field(result, forget_absent(document));
+  for (std::size_t k = 0; k < result.steps.size(); ++k)
+    faultsim::for_each_field(result.steps[k], forget_absent(document["steps"][k]));
   return faultsim::fingerprint(document.dump());
 }
 

@@ -55,6 +55,11 @@ std::vector<std::string> names_of_regions(const ShownCase& shown) {
   return names;
 }
 
+bool has_temperatures(const CaseResult& result) {
+  return std::ranges::any_of(
+      result.steps, [](const StepResult& step) { return !step.temperature_change.empty(); });
+}
+
 std::vector<AnswerColumn> history_columns(const CaseResult& result,
                                           const std::vector<std::string>& regions) {
   std::vector<AnswerColumn> columns = {
@@ -70,6 +75,10 @@ std::vector<AnswerColumn> history_columns(const CaseResult& result,
   for (const std::string& region : regions) {
     columns.push_back(column(region, "Δp " + region, bars(), 4, Need::wanted));
     columns.back().group = "pressure_change_pa";
+  }
+  for (std::size_t r = 0; has_temperatures(result) && r < regions.size(); ++r) {
+    columns.push_back(column(regions[r], "ΔT " + regions[r] + ", K", {}, 3, Need::wanted));
+    columns.back().group = "temperature_change_k";
   }
   append(columns,
          {extensive(result, "activated_area_m2", "sliding area", 4),
@@ -112,6 +121,9 @@ std::vector<AnswerCell> history_row(const CaseResult& result, const StepResult& 
   for (std::size_t r = 0; r < n_regions; ++r)
     cells.push_back(r < step.pressure_change.size() ? AnswerCell(step.pressure_change[r])
                                                     : AnswerCell());
+  for (std::size_t r = 0; has_temperatures(result) && r < n_regions; ++r)
+    cells.push_back(r < step.temperature_change.size() ? AnswerCell(step.temperature_change[r])
+                                                       : AnswerCell());
   if (!is_there) return cells;
   append(cells,
          {m.activated_area, m.moment, m.open_area, m.chi_max, m.area_chi_080, m.slipping_area});
@@ -298,8 +310,15 @@ AnswerTable initial_table(const std::vector<faultsim::InitialRegion>& regions) {
       {column("region", "region"), column("depth_m", "depth", metres(), 4),
        column("sigma_v_pa", "vertical", bars(), 4), column("sigma_across_pa", "across", bars(), 4),
        column("sigma_along_pa", "along", bars(), 4), column("pressure_pa", "pressure", bars(), 4)}};
-  for (const faultsim::InitialRegion& r : regions)
+  const bool has_source = std::ranges::any_of(
+      regions, [](const faultsim::InitialRegion& r) { return !r.source.empty(); });
+  if (has_source) table.columns.push_back(column("pressure_from", "pressure is"));
+  for (const faultsim::InitialRegion& r : regions) {
     table.rows.push_back({r.name, r.depth, r.vertical, r.across, r.along, r.pressure});
+    if (!has_source) continue;
+    table.rows.back().emplace_back();
+    if (!r.source.empty()) table.rows.back().back() = "mean of the " + r.source;
+  }
   return table;
 }
 

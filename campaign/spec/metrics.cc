@@ -31,6 +31,8 @@ const std::vector<MetricInfo>& other_metrics() {
        true},
       {"field_coverage", Dimension::number, false,
        "share of the compartments that its flow result covers; none without one", true},
+      {"field_assumed", Dimension::number, false,
+       "share of the integral of the change that is assumed beyond that; none without one", true},
       {"activation_step", Dimension::number, false, "first load step in which it slides", true},
       {"activation_depth", Dimension::length, false, "where it slides first", true},
       {"activation_pressure_change", Dimension::pressure, false,

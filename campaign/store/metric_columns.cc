@@ -71,6 +71,7 @@ std::map<std::string, MetricColumn> all_columns() {
       {"surface_error",
        {"(SELECT u.error_of_slip FROM case_surfaces u WHERE u.case_id = m.case_id)"}},
       {"field_coverage", {"m.field_coverage"}},
+      {"field_assumed", {"m.field_assumed"}},
       {"max_nucleation_ratio", {"m.max_nucleation_ratio"}},
       {"unexpected", {"(m.unexpected_episode IS NOT NULL)"}},
       {"unexpected_fault",
@@ -148,8 +149,8 @@ Depends dependence_of(const std::string& metric) {
     const auto add = [&all](Depends on, const std::vector<const char*>& metrics) {
       for (const char* one : metrics) all.emplace(one, on);
     };
-    add(Depends::on_the_run,
-        {"outcome", "plane_strain", "interpolated", "surface_error", "field_coverage"});
+    add(Depends::on_the_run, {"outcome", "plane_strain", "interpolated", "surface_error",
+                              "field_coverage", "field_assumed"});
     add(Depends::on_the_history,
         {"activation_resolved", "weakening_resolved", "slips", "opens", "open_area"});
     add(Depends::on_the_history,

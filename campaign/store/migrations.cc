@@ -16,6 +16,7 @@
 #include "store_17_sql.h"
 #include "store_18_sql.h"
 #include "store_19_sql.h"
+#include "store_20_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -135,6 +136,8 @@ const std::vector<Migration>& store_migrations() {
         {17, "2026-11-25 errors of stability limits", faultsim::embedded::store_17_sql},
         {18, "2026-11-26 cases on surfaces", faultsim::embedded::store_18_sql},
         {19, "2026-11-27 fields of the cases shown first", faultsim::embedded::store_19_sql},
+        {20, "2026-11-28 what is assumed of flow results, temperatures",
+         faultsim::embedded::store_20_sql},
     };
     for (std::size_t k = 0;; ++k) {  // versions are without gaps from 1
       const int version = static_cast<int>(k) + 1;

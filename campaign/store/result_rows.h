@@ -192,6 +192,7 @@ class RowFields {
     } else if constexpr (std::is_enum_v<Member>) {
       row.bind(faultsim::to_string(value));
     } else if constexpr (std::is_same_v<Member, std::vector<double>>) {
+      if (field.may_be_null && value.empty()) return row.bind_null();
       row.bind_copy(json_array(value));
     } else if constexpr (std::is_same_v<Member, std::vector<std::string>>) {
       row.bind_copy(join_lines(value));

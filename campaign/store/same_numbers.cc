@@ -30,7 +30,8 @@ void forget_later_fields(const json& stored, json& again) {
       forget_later_fields(stored[k], again[k]);
   } else if (stored.is_object() && again.is_object()) {
     for (const auto& [key, value] : stored.items()) {
-      if (value.is_null() && later_fields().contains(key)) again[key] = nullptr;
+      if ((value.is_null() || value == json::array()) && later_fields().contains(key))
+        again[key] = value;
       forget_later_fields(value, again[key]);
     }
   }
@@ -58,6 +59,8 @@ const std::set<std::string>& later_fields() {
     const auto note = [&later](const faultsim::Field& field, const auto&) {
       if (field.since > 0) later.emplace(field.key);
     };
+    const faultsim::StepResult step;
+    faultsim::for_each_field(step, note);
     const CaseResult result;
     faultsim::for_each_measure(result.whole, note);
     faultsim::for_each_field(result, note);
@@ -81,7 +84,8 @@ std::string first_difference(const CaseResult& stored, const CaseResult& again) 
   if (differ("stages") || differ("whole")) return "the metrics of the stages";
   if (differ("events")) return "the slip events";
   if (differ("episodes") || differ("unexpected")) return "the episodes";
-  if (differ("surface") || differ("field_coverage")) return "how exact it is";
+  if (differ("surface") || differ("field_coverage") || differ("field_assumed"))
+    return "how exact it is";
   for (const char* key : {"pressure_margin_pa", "max_nucleation_ratio", "max_penetration_m",
                           "plane_strain", "weakening_resolved"}) {
     if (differ(key)) return "the metrics of the case";

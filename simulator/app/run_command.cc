@@ -18,6 +18,7 @@
 #include "simulator/linalg/blas.h"
 #include "simulator/linalg/blas_kernel.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/operators/cell_changes.h"
 #include "simulator/result/result_json.h"
 #include "simulator/result_files/field_writer.h"
 #include "simulator/result_files/volume_writer.h"
@@ -47,6 +48,15 @@ std::string prepared_text(const FaultOperator& op, const std::optional<CaseSurfa
       : from_cache ? "operator: from the cache"
                    : built_in(op.build_seconds);
   return concat(how, ", ", op.geometry.nodes.size(), " fault node pairs\n");
+}
+
+/// Pressures and temperatures in the cells, beside the displacements.
+void add_cell_changes(const Scene& scene, const Mesh& mesh, std::vector<VolumeSnapshot>& volume) {
+  const CellChanges changes(scene, mesh);
+  for (VolumeSnapshot& one : volume) {
+    if (changes.has_pressure()) one.pressure_change = changes.pressure(one.time);
+    if (changes.has_temperature()) one.temperature_change = changes.temperature(one.time);
+  }
 }
 
 }  // namespace
@@ -151,11 +161,14 @@ ExitCode run_command(const RunArguments& arguments) {
   if (writer) writer->finish();
   if (scene.output.volume_fields) {
     const Mesh& mesh = is_coupled ? coupled->mesh() : prepared.bulk->bulk(0).problem().mesh;
+    add_cell_changes(scene, mesh, volume);
     write_volume(output.path(), mesh.nodes, {mesh.cells.nodes(), mesh.cells.n_nodes()},
                  mesh.material, volume);
   }
   nlohmann::json document = result_to_json(result);
   document["initial_state"] = initial_state_to_json(loaded.plan.initial);
+  if (!prepared.integrals.empty())
+    document["field_integrals"] = field_integrals_to_json(prepared.integrals);
   const std::string text = json_text(std::move(document));
   write_text(output.path() / "result.json", text);
   const bool finished = result.outcome != Outcome::interrupted;
@@ -168,7 +181,7 @@ ExitCode run_command(const RunArguments& arguments) {
     std::cout << text;
   } else {
     if (result.failed_step) std::cout << step_table_row(result.steps.back(), arguments.wide);
-    std::cout << case_summary(result);
+    std::cout << case_summary(result) << field_integrals_to_text(prepared.integrals);
     if (finished) {
       std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";
     } else {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "simulator/common/text.h"
@@ -28,6 +29,11 @@ std::size_t n_fault_columns(std::size_t n_regions, std::size_t n_faults, bool wi
 
 /// One column, the most depleted region, where they would take the faults' place.
 bool shows_regions(std::size_t n_regions, bool wide) { return wide || n_regions <= 4; }
+
+/// Of temperature: all regions where there is room, else the largest change of all.
+std::size_t n_temperature_columns(bool has_temperatures, std::size_t n_regions, bool wide) {
+  return !has_temperatures ? 0 : wide ? n_regions : 1;
+}
 
 /// '*' where the fault slides, '?' where that depends on the cells.
 char mark(const FaultMetrics& fault) {
@@ -185,7 +191,9 @@ std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) 
   const bool regions = shows_regions(scene.pressure.size(), wide);
   const std::size_t n_regions = regions ? scene.pressure.size() : 1;
   const std::size_t n_faults = scene.faults.size();
-  const std::size_t n_shown = n_fault_columns(n_regions, n_faults, wide);
+  const std::size_t n_heated =
+      n_temperature_columns(scene.has_temperatures(), scene.pressure.size(), wide);
+  const std::size_t n_shown = n_fault_columns(n_regions + n_heated, n_faults, wide);
   std::string line = formatted("%4s  %-18s%7s", "step", "stage", "year");
   std::string units = formatted("%4s  %-18s%7s", "", "", "");
   const auto add = [&](int width, const std::string& heading, const char* unit) {
@@ -194,6 +202,8 @@ std::string step_table_header(const Scene& scene, bool plane_strain, bool wide) 
   };
   for (std::size_t r = 0; r < n_regions; ++r)
     add(7, regions ? "dp " + scene.pressure[r].region : "dp min", "bar");
+  for (std::size_t r = 0; r < n_heated; ++r)
+    add(7, wide ? "dT " + scene.pressure[r].region : "dT", "K");
   if (wide) add(6, "stick", "nodes");
   add(5, "slip", "nodes");
   add(4, "open", "");
@@ -215,12 +225,17 @@ std::string step_table_row(const StepResult& step, bool wide) {
   std::vector<double> shown = step.pressure_change;
   if (!regions) shown = {*std::ranges::min_element(shown)};
   for (const double dp : shown) line += formatted(" %7s", bar(dp).c_str());
+  std::vector<double> heated = step.temperature_change;
+  if (!wide && !heated.empty())
+    heated = {*std::ranges::max_element(heated, {}, [](double dt) { return std::abs(dt); })};
+  for (const double dt : heated) line += formatted(" %7.1f", dt);
   if (!in_equilibrium(step.outcome)) {
     return line + "  " + to_string(step.outcome) + ": " + step.reason + "\n";
   }
   if (wide) line += formatted(" %6d", step.n_stick);
   line += formatted(" %5d %4d", step.n_slip, step.n_open);
-  const std::size_t n_shown = n_fault_columns(shown.size(), step.faults.size(), wide);
+  const std::size_t n_shown =
+      n_fault_columns(shown.size() + heated.size(), step.faults.size(), wide);
   double area = 0, slip = 0, others = 0;
   char others_mark = ' ';
   for (std::size_t f = 0; f < step.faults.size(); ++f) {

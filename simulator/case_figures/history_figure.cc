@@ -102,12 +102,21 @@ figure::HistoryPanel pressure_panel(const Chosen& chosen) {
   return panel;
 }
 
-/// Changes of temperature of a region, K; none where the scene changes none of it.
+/// Changes of temperature of a compartment, K; none where nothing says them. Results of older
+/// programs have none, where those that stages change follow from the scene.
 std::vector<double> temperatures_of(const CasePicture& picture, const std::string& region) {
+  const CaseResult& result = picture.result;
+  const auto r = place_of(result.region_names, region);
+  const auto has = [&](const StepResult& step) { return r && *r < step.temperature_change.size(); };
+  if (std::ranges::any_of(result.steps, has)) {
+    return mapped(result.steps, [&](const StepResult& step) {
+      return has(step) ? step.temperature_change[*r] : std::nan("");
+    });
+  }
   for (const TemperatureHistory& history : picture.scene.temperature) {
     if (picture.scene.pressure.at(static_cast<std::size_t>(history.region)).region != region)
       continue;
-    return mapped(picture.result.steps, [&](const StepResult& step) {
+    return mapped(result.steps, [&](const StepResult& step) {
       return step.time < history.time.front() ? 0.0
                                               : value_at(history.time, history.change, step.time);
     });
@@ -115,16 +124,20 @@ std::vector<double> temperatures_of(const CasePicture& picture, const std::strin
   return {};
 }
 
-/// Of regions whose temperature the stages change.
+/// Of regions whose temperature the stages change, and of all where a flow result does: means.
 figure::HistoryPanel temperature_panel(const Chosen& chosen) {
-  figure::HistoryPanel panel{"ΔT, K", {}, {}, {0}, 120};
-  for (const TemperatureHistory& history : chosen.scene().temperature) {
-    const auto region = static_cast<std::size_t>(history.region);
-    figure::Curve curve{chosen.scene().pressure.at(region).region, 0, {}};
+  const Scene& scene = chosen.scene();
+  const bool is_mean = scene.temperature_field.is_given();
+  figure::HistoryPanel panel{is_mean ? "mean ΔT, K" : "ΔT, K", {}, {}, {0}, 120};
+  for (std::size_t r = 0; r < scene.pressure.size(); ++r) {
+    if (!is_mean && !contains(scene.temperature, static_cast<int>(r), &TemperatureHistory::region))
+      continue;
+    figure::Curve curve{scene.pressure[r].region, 0, {}};
     curve.values = temperatures_of(chosen.picture, curve.name);
+    if (curve.values.empty()) continue;
     if (chosen.picture.original != nullptr)
       curve.before = temperatures_of(*chosen.picture.original, curve.name);
-    add_region(std::move(curve), region, panel);
+    add_region(std::move(curve), r, panel);
   }
   return panel;
 }
@@ -169,7 +182,10 @@ std::string draw_history(const Chosen& chosen) {
   }
   chart.remark = words_of_original(chosen.picture) + subject_of(chosen.picture) + ending_of(result);
   if (!result.region_names.empty()) chart.panels.push_back(pressure_panel(chosen));
-  if (!chosen.scene().temperature.empty()) chart.panels.push_back(temperature_panel(chosen));
+  if (chosen.scene().has_temperatures()) {
+    figure::HistoryPanel panel = temperature_panel(chosen);
+    if (!panel.curves.empty()) chart.panels.push_back(std::move(panel));
+  }
   return figure::draw(chart);
 }
 

@@ -37,22 +37,35 @@ std::optional<SectionPlace> critical_line(const CasePicture& picture) {
 }
 
 SectionPlace place_of_section(const CasePicture& picture) {
-  if (picture.result.plane_strain) return {picture.scene.pressure_field.y, ""};
+  if (picture.result.plane_strain) return {painted_load(picture.scene).y, ""};
   return critical_line(picture).value_or(SectionPlace{0, ", the middle"});
 }
 
-bool has_pressures(const CasePicture& picture) {
+/// What is painted, and its unit.
+struct Quantity {
+  bool is_pressure;
+  double unit() const { return is_pressure ? kBarInPascal : 1; }
+  const char* label() const { return is_pressure ? "Δp, bar" : "ΔT, K"; }
+  const char* name() const { return is_pressure ? "pressure" : "temperature"; }
+  const char* plural() const { return is_pressure ? "pressures" : "temperatures"; }
+  bool operator==(const Quantity&) const = default;
+};
+
+Quantity quantity_of(const CasePicture& picture) {
+  return {picture.scene.pressure_field.is_given()};
+}
+
+bool is_painted(const CasePicture& picture) {
   return picture.scene.geometry_kind == GeometryKind::field &&
-         picture.scene.pressure_field.is_given() && n_steps_of(picture.result) > 0;
+         painted_load(picture.scene).is_given() && n_steps_of(picture.result) > 0;
 }
 
 /// Widens the scale to hold a case's changes at all its load steps.
-void hold_all(const SectionPressures& pressures, const CaseResult& result,
+void hold_all(const SectionPressures& pressures, const CaseResult& result, double unit,
               figure::FaceColours& colours) {
   for (std::size_t k = 0; k < n_steps_of(result); ++k) {
     for (std::size_t b = 0; b < pressures.n_blocks(); ++b)
-      for (const double change : pressures.at(b, result.steps[k].time))
-        colours.hold(change / kBarInPascal);
+      for (const double change : pressures.at(b, result.steps[k].time)) colours.hold(change / unit);
   }
 }
 
@@ -60,22 +73,23 @@ std::string metres(double length) { return plain_number(length, 4) + " m"; }
 
 std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace& place,
                                   const SectionPressures& pressures, bool has_original) {
-  const FlowLoad& load = picture.scene.pressure_field;
+  const FlowLoad& load = painted_load(picture.scene);
+  const Quantity quantity = quantity_of(picture);
   if (pressures.n_covered() == 0) {
     return {concat("nothing is painted: the flow grid does not reach the reservoirs at y = ",
                    metres(place.y), place.why)};
   }
   const double since = load.field->date[static_cast<std::size_t>(load.reference)];
   std::vector<std::string> words = {
-      concat("in reservoirs: change of the flow result's pressure since ", date_text(since),
-             " (negative: it fell), at y = ", metres(place.y), place.why),
+      concat("in reservoirs: change of the flow result's ", quantity.name(), " since ",
+             date_text(since), " (negative: it fell), at y = ", metres(place.y), place.why),
       concat("means over pieces of at most ", plain_number(pressures.width()), " m × ",
              plain_number(pressures.height()), " m; ", same_scale_words(picture, has_original))};
   if (pressures.n_covered() < pressures.n_all()) {
     words.push_back(
         concat("hatched: pieces of which less than half lies in the flow grid; beyond it ",
                load.outside == OutsideRule::nearest ? "the nearest flow cell's change acts"
-                                                    : "pressures do not change"));
+                                                    : concat(quantity.plural(), " do not change")));
   }
   return words;
 }
@@ -83,25 +97,28 @@ std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace
 }  // namespace
 
 PaintedSection::PaintedSection(const CasePicture& picture) {
-  if (!has_pressures(picture)) return;
+  if (!is_painted(picture)) return;
   painted_.emplace();
+  const Quantity quantity = quantity_of(picture);
+  unit_ = quantity.unit();
   const SectionPlace place = place_of_section(picture);
   try {
     pressures_.emplace(picture.scene, place.y);
     figure::FaceColours& colours = painted_->colours;
     colours.kind = figure::FaceColours::Kind::change;
-    if (pressures_->n_covered() > 0) colours.label = "Δp, bar";
-    hold_all(*pressures_, picture.result, colours);
-    const bool has_original = picture.original != nullptr && has_pressures(*picture.original);
+    if (pressures_->n_covered() > 0) colours.label = quantity.label();
+    hold_all(*pressures_, picture.result, unit_, colours);
+    const bool has_original = picture.original != nullptr && is_painted(*picture.original) &&
+                              quantity_of(*picture.original) == quantity;
     if (has_original) {
       const CasePicture& original = *picture.original;
-      hold_all({original.scene, place_of_section(original).y}, original.result, colours);
+      hold_all({original.scene, place_of_section(original).y}, original.result, unit_, colours);
     }
     painted_->words = words_of(picture, place, *pressures_, has_original);
   } catch (const InputError& error) {
     pressures_.reset();
     painted_ = figure::Section::Painted{
-        {}, {concat("pressures are not painted: ", error.problems().front().what)}};
+        {}, {concat(quantity.plural(), " are not painted: ", error.problems().front().what)}};
   }
 }
 
@@ -114,7 +131,7 @@ void PaintedSection::paint(double time, figure::Section& section) const {
     rock.pieces.clear();
     const std::vector<double> change = pressures_->at(block, time);
     for (std::size_t k = 0; k < change.size(); ++k)
-      rock.pieces.push_back({pressures_->corners(block, k), change[k] / kBarInPascal});
+      rock.pieces.push_back({pressures_->corners(block, k), change[k] / unit_});
     ++block;
   }
 }

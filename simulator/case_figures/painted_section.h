@@ -11,9 +11,9 @@
 namespace faultsim::case_figures {
 
 /// What is painted into the reservoirs of a case's section: by how much the pressures of its flow
-/// result have changed, with one scale for all load steps, and for the case before a change; and
-/// what is said of it. Of a case without such pressures nothing is, nor where flow cells lie over
-/// each other in the section: then it is said.
+/// result, or the temperatures of one that has those alone, have changed, with one scale for all
+/// load steps, and for the case before a change; and what is said of it. Of a case without such a
+/// result nothing is, nor where flow cells lie over each other in the section: then it is said.
 class PaintedSection {
  public:
   /// @pre the picture is of a field, with faults and load steps.
@@ -24,6 +24,7 @@ class PaintedSection {
 
  private:
   std::optional<SectionPressures> pressures_;
+  double unit_ = 1;  ///< Pa or K, of the colours' numbers.
   std::optional<figure::Section::Painted> painted_;
 };
 

@@ -37,9 +37,13 @@ FlowField field_near(const FlowLoad& load, const std::vector<MappedCell>& cells)
 
 }  // namespace
 
+const FlowLoad& painted_load(const Scene& scene) {
+  return scene.pressure_field.is_given() ? scene.pressure_field : scene.temperature_field;
+}
+
 SectionPressures::SectionPressures(const Scene& scene, double y)
-    : n_blocks_(scene.field.blocks.size()), y_(y), time_(scene.pressure_field.time) {
-  const FlowLoad& load = scene.pressure_field;
+    : n_blocks_(scene.field.blocks.size()), y_(y), time_(painted_load(scene).time) {
+  const FlowLoad& load = painted_load(scene);
   const int n_rows = rows_of(scene), n_columns = kMostPieces / n_rows;
   std::vector<MappedCell> cells;
   for (std::size_t b = 0; b < n_blocks_; ++b) cut(scene, b, n_columns, n_rows, cells);

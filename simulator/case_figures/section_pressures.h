@@ -11,15 +11,19 @@
 /// Inside of the module: what a flow result says of a section.
 namespace faultsim {
 
-/// By how much the pressures of a flow result have changed in the reservoirs of a section across a
-/// field, as the simulation takes them: conservative means over pieces of the section (map_flow,
-/// mapped_change), linear in time between the reports that the scene takes. Each reservoir is cut
-/// into the same number of columns and rows, at most kMostPieces.
+/// The flow result that sections are painted with: of pressure, else of temperature.
+const FlowLoad& painted_load(const Scene& scene);
+
+/// By how much the pressures of a flow result, or its temperatures where a scene has a field of
+/// those alone, have changed in the reservoirs of a section across a field, as the simulation takes
+/// them: conservative means over pieces of the section (map_flow, mapped_change), linear in time
+/// between the reports that the scene takes. Each reservoir is cut into the same number of columns
+/// and rows, at most kMostPieces.
 class SectionPressures {
  public:
   static constexpr int kMostPieces = 200;
 
-  /// @param y  m, of the section. @pre the scene is a field with a pressure field.
+  /// @param y  m, of the section. @pre the scene is a field with a painted_load().
   /// Throws InputError as map_flow() does.
   SectionPressures(const Scene& scene, double y);
 
@@ -29,7 +33,8 @@ class SectionPressures {
   const std::array<figure::Point, 4>& corners(std::size_t block, std::size_t piece) const {
     return corners_[block * n_pieces() + piece];
   }
-  /// Δp of the block's pieces at a time, Pa; NaN where less than half of a piece is covered.
+  /// Δp or ΔT of the block's pieces at a time, Pa or K; NaN where less than half of a piece is
+  /// covered.
   std::vector<double> at(std::size_t block, double time) const;
   double y() const { return y_; }
   double width() const { return width_; }    ///< of the widest piece, m.
@@ -47,7 +52,7 @@ class SectionPressures {
   std::vector<double> time_;  ///< s, of the reports.
   std::vector<std::array<figure::Point, 4>> corners_;
   std::vector<double> covered_;  ///< share, per piece of all blocks.
-  Eigen::MatrixXd change_;       ///< Pa, pieces x reports.
+  Eigen::MatrixXd change_;       ///< Pa or K, pieces x reports.
 };
 
 }  // namespace faultsim

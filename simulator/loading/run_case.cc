@@ -225,6 +225,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.stage = step.stage;
   result.time = step.time;
   result.pressure_change = loads.pressure_change;
+  result.temperature_change = loads.temperature_change;
   const Eigen::VectorXd jump_before = state_.jump;
   AcceptedStep accepted;
   if (probe_.accepted) accepted.before = state_;
@@ -377,6 +378,7 @@ CaseResult run_case(const Scene& scene, const PreparedOperator& prepared, const 
   CaseResult result =
       CaseRun(scene, *prepared.op, prepared.loads, steps_on(prepared), context, probe).run();
   result.field_coverage = prepared.field_coverage;
+  result.field_assumed = prepared.field_assumed;
   result.warnings.insert(result.warnings.end(), prepared.warnings.begin(), prepared.warnings.end());
   result.surface = prepared.surface;
   if (result.surface) result.warnings.push_back(surface_warning(*result.surface));

@@ -50,6 +50,7 @@ StepLoads CaseLoads::at(double time) const {
   loads.time = time;
   loads.locked = initial_.traction;
   loads.pressure_change = pressure_changes(scene_, time);
+  if (scene_.has_temperatures()) loads.temperature_change = temperature_changes(scene_, time);
   loads.factors = load_factors_.at(time, loads.pressure_change);
   const Eigen::MatrixXd& unit = op_.loads.traction;
   for (Eigen::Index k = 0; k < std::min(unit.cols(), std::ssize(loads.factors)); ++k) {

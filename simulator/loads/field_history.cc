@@ -20,6 +20,11 @@ void FieldHistory::add(double at, StepLoads& loads) const {
   const Eigen::VectorXd regions = at_time(time, region_change, at);
   for (std::size_t r = 0; r < loads.pressure_change.size(); ++r)
     loads.pressure_change[r] += regions[static_cast<Eigen::Index>(r)];
+  if (region_heating.size() > 0) {
+    const Eigen::VectorXd heating = at_time(time, region_heating, at);
+    for (std::size_t r = 0; r < loads.temperature_change.size(); ++r)
+      loads.temperature_change[r] += heating[static_cast<Eigen::Index>(r)];
+  }
   if (observed.size() > 0) loads.observed = at_time(time, observed, at);
   loads.beside.resize(beside_minus.rows(), 2);
   loads.beside.col(0) = at_time(time, beside_minus, at);

@@ -19,6 +19,8 @@ struct FieldHistory final : LoadSource {
   Eigen::MatrixXd observed = {};
   /// Δp of each region: the mean over its volume, Pa, n_regions x n_reports.
   Eigen::MatrixXd region_change = {};
+  /// ΔT of each region likewise, K; empty without a field of temperatures.
+  Eigen::MatrixXd region_heating = {};
   /// Δp_f by the faults' rules from the cells beside each node, Pa, n_nodes x n_reports.
   Eigen::MatrixXd fault_pressure = {};
   /// By how much Δp of the cells beside a node, weighted by area and the share in the region,

@@ -19,8 +19,9 @@ PressureChanges between(const PressureChanges& before, const PressureChanges& af
 
 /// The loads of a case at one time: what the faults would carry if they stayed closed.
 struct StepLoads : PressureChanges {
-  double time = 0;              ///< s.
-  std::vector<double> factors;  ///< c_k, per operator load.
+  double time = 0;                         ///< s.
+  std::vector<double> temperature_change;  ///< ΔT per region, K, of a field its mean; or empty.
+  std::vector<double> factors;             ///< c_k, per operator load.
   /// t_L = t'_0 + Σ c_k L_k + Σ_c P_c s_c + α_f Δp_f n, n_dofs, Pa; without the sums where the
   /// operator is not condensed and has no L: what the faults would carry if the rock were rigid.
   Eigen::VectorXd locked;

@@ -122,15 +122,16 @@ void set_beside(const Scene& scene, const Mesh& mesh, const FaultOperator& op,
 /// A field in the block's cells.
 struct MappedField {
   const FlowLoad& load;
-  std::string name;  ///< "pressure field".
+  std::string quantity;  ///< "pressure".
+  std::string name = quantity + " field";
   FlowMapping mapping = {};
   Eigen::MatrixXd change =
       {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
 };
 
-MappedField map_field(const FlowLoad& load, const std::string& name, const Mesh& mesh,
+MappedField map_field(const FlowLoad& load, const std::string& quantity, const Mesh& mesh,
                       const InfluenceBlock& block) {
-  MappedField field{load, name};
+  MappedField field{.load = load, .quantity = quantity};
   if (!load.is_given()) return field;
   field.mapping = map_flow(*field_in_scene(load), mapped_cells(mesh, block, load),
                            block.region_names, load.outside);
@@ -155,19 +156,31 @@ Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& t
   return change;
 }
 
-/// How much of the integral of |change| over a compartment at the last report lies in what is
-/// covered, in percent.
-double covered_integral(const MappedField& field, const InfluenceBlock& block, int region) {
-  double covered = 0, whole = 0;
-  for (std::size_t c = 0; c < block.cells.size(); ++c) {
-    const InfluenceCell& cell = block.cells[c];
-    if (cell.region != region) continue;
-    const double part = cell.fraction * std::abs(field.change(static_cast<Eigen::Index>(c),
-                                                              field.change.cols() - 1));
-    whole += part * cell.volume;
-    covered += part * cell.volume * field.mapping.covered[c];
+/// Of every compartment; none of a field that is not there.
+std::vector<FieldIntegral> integrals_of(const MappedField& field, const InfluenceBlock& block) {
+  std::vector<FieldIntegral> integrals;
+  for (std::size_t r = 0; field.load.is_given() && r < block.region_names.size(); ++r) {
+    const RegionCoverage& region = field.mapping.coverage[r];
+    integrals.push_back({.field = field.quantity,
+                         .region = block.region_names[r],
+                         .n_cells = region.n_cells,
+                         .n_outside = region.n_outside,
+                         .n_partly = region.n_partly,
+                         .takes_nearest = field.load.outside == OutsideRule::nearest});
   }
-  return whole > 0 ? 100 * covered / whole : 100;
+  for (std::size_t c = 0; field.load.is_given() && c < block.cells.size(); ++c) {
+    const InfluenceCell& cell = block.cells[c];
+    FieldIntegral& one = integrals[static_cast<std::size_t>(cell.region)];
+    const double part = cell.volume * cell.fraction, covered = field.mapping.covered[c] * part;
+    const double change = field.change(static_cast<Eigen::Index>(c), field.change.cols() - 1);
+    one.volume += part;
+    one.covered += covered;
+    one.acts += part * change;
+    one.has += covered * change;
+    one.size += part * std::abs(change);
+    one.assumed += (part - covered) * std::abs(change);
+  }
+  return integrals;
 }
 
 /// Locked tractions, observations and forces of stresses in the cells.
@@ -204,21 +217,24 @@ double covered_share(const FlowMapping& mapping) {
   return volume > 0 ? std::min(covered / volume, 1.0) : 1;
 }
 
-/// What became of the cells of each compartment.
-void report_coverage(const MappedField& field, const InfluenceBlock& block,
-                     std::vector<std::string>& notes) {
-  constexpr double kWhole = 1 - 1e-6;
-  for (std::size_t r = 0; field.load.is_given() && r < block.region_names.size(); ++r) {
+/// What became of the cells of each compartment that has some.
+void report_coverage(const MappedField& field, const InfluenceBlock& block, FieldLoads& loads) {
+  if (!field.load.is_given()) return;
+  for (const std::string& note : field.load.field->notes)
+    loads.notes.push_back(concat(field.name, " ", note));
+  const std::vector<FieldIntegral> integrals = integrals_of(field, block);
+  for (std::size_t r = 0; r < integrals.size(); ++r) {
     const RegionCoverage& region = field.mapping.coverage[r];
     if (region.n_cells == 0) continue;
     std::string text = concat(field.name, " on ", block.region_names[r], ": ",
                               coverage_text(region, field.load.outside));
-    if (region.covered < kWhole * region.volume) {
+    if (!integrals[r].is_whole()) {
       text += formatted(
           "; of the integral of its change at the last report %.4g %% lies in what is covered",
-          covered_integral(field, block, static_cast<int>(r)));
+          100 * (1 - integrals[r].assumed_share()));
     }
-    notes.push_back(text);
+    loads.notes.push_back(text);
+    loads.integrals.push_back(integrals[r]);
   }
 }
 
@@ -228,15 +244,15 @@ FieldLoads field_loads(const Scene& scene, const FieldCells& cells, int n_thread
   FAULTSIM_DEMAND(scene.has_field(), "loads of a field");
   const Mesh& mesh = cells.mesh;
   const InfluenceBlock& block = cells.block;
-  const MappedField pressure = map_field(scene.pressure_field, "pressure field", mesh, block);
-  const MappedField temperature =
-      map_field(scene.temperature_field, "temperature field", mesh, block);
+  const MappedField pressure = map_field(scene.pressure_field, "pressure", mesh, block);
+  const MappedField temperature = map_field(scene.temperature_field, "temperature", mesh, block);
   const Eigen::Index n_cells = std::ssize(block.cells);
   FieldHistory history;
   history.time = all_times(pressure, temperature);
   Eigen::MatrixXd stress = change_at(pressure, history.time, n_cells);
   const Eigen::MatrixXd heating = change_at(temperature, history.time, n_cells);
   history.region_change = region_means(block, stress);
+  if (scene.temperature_field.is_given()) history.region_heating = region_means(block, heating);
   set_beside(scene, mesh, cells.op, block, stress, history);
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(std::ssize(mesh.cells), stress.cols());
   for (std::size_t c = 0; c < block.cells.size(); ++c) {
@@ -250,13 +266,11 @@ FieldLoads field_loads(const Scene& scene, const FieldCells& cells, int n_thread
   history.fault_pressure = fault_pressures(scene, mesh, cells.op.geometry, change);
   condense(cells, std::move(stress), n_threads, history);
   FieldLoads loads;
-  for (const MappedField* field : {&pressure, &temperature})
-    report_coverage(*field, block, loads.notes);
+  for (const MappedField* field : {&pressure, &temperature}) report_coverage(*field, block, loads);
   if (scene.pressure_field.is_given())
     loads.notes.push_back(
         "pressures of compartments at a load step are means over their volumes; those where a "
-        "fault "
-        "begins to slide or jumps are of the field's cells beside the place");
+        "fault begins to slide or jumps are of the field's cells beside the place");
   loads.coverage = std::min(covered_share(pressure.mapping), covered_share(temperature.mapping));
   loads.mapping = pressure.mapping;
   loads.history = std::make_shared<const FieldHistory>(std::move(history));

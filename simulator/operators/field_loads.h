@@ -6,6 +6,7 @@
 #include "simulator/flow/flow_mapping.h"
 #include "simulator/loads/field_history.h"
 #include "simulator/operators/influence.h"
+#include "simulator/result/field_integral.h"
 
 namespace faultsim {
 
@@ -15,7 +16,8 @@ struct FieldLoads {
   FlowMapping mapping;                          ///< of the pressure field, if there is one.
   double coverage = 1;  ///< share of the compartments' volume that is covered, [0, 1]; of pressure
                         ///< and temperature the smaller one.
-  std::vector<std::string> notes;  ///< what became of the cells of each compartment.
+  std::vector<FieldIntegral> integrals;  ///< per field and compartment.
+  std::vector<std::string> notes;        ///< what became of the cells of each compartment.
 };
 
 /// The cells that fields act on, and what stress in them does to closed faults.

@@ -13,6 +13,7 @@
 #include "simulator/loads/load_source.h"
 #include "simulator/model/fault_operator.h"
 #include "simulator/plan/plan.h"
+#include "simulator/result/field_integral.h"
 #include "simulator/result/result.h"
 #include "simulator/scene/scene.h"
 
@@ -60,7 +61,9 @@ struct PreparedOperator {
   std::shared_ptr<CreepLadder> bulk;
   LoadSources loads = {};                     ///< beside those of the operator.
   std::optional<CaseSurface> surface = {};    ///< only where it is interpolated.
-  std::optional<double> field_coverage = {};  ///< as in CaseResult.
+  std::optional<double> field_coverage = {};  ///< as in CaseResult, as is
+  std::optional<double> field_assumed = {};
+  std::vector<FieldIntegral> integrals = {};  ///< of its flow results (field_loads.h).
   std::vector<std::string> warnings = {};     ///< for every result on it.
   bool from_cache = false;
   std::string remark;  ///< "damaged operator file moved aside", "not kept", ...

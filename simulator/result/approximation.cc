@@ -55,7 +55,11 @@ std::string approximation_sentence(const CaseResult& result) {
   if (result.surface) text = surface_sentence(*result.surface);
   if (result.field_coverage && *result.field_coverage < kWhole) {
     text += concat(text.empty() ? "" : " ", "Its flow result covers ",
-                   percent(*result.field_coverage), " of the compartments.");
+                   percent(*result.field_coverage), " of the compartments");
+    if (result.field_assumed)
+      text += concat(", and ", percent(1 - *result.field_assumed),
+                     " of the integral of its change there");
+    text += ".";
   }
   return text;
 }

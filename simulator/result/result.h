@@ -141,6 +141,8 @@ struct StepResult {
   std::string stage;                    ///< "initial" for step 0.
   double time = 0;                      ///< s.
   std::vector<double> pressure_change;  ///< Pa, per region, in region order.
+  /// K, likewise, of a flow result its mean; empty where no temperature changes.
+  std::vector<double> temperature_change;
   Outcome outcome = Outcome::failed;
   std::string reason;  ///< why not converged: counts per reason and the worst node.
   int n_stick = 0, n_slip = 0, n_open = 0;
@@ -311,6 +313,9 @@ struct CaseResult {
   /// Share of the compartments' volume that its flow result covers, [0, 1]; of pressure and
   /// temperature the smaller one. Only of a scene with a flow result.
   std::optional<double> field_coverage;
+  /// Share of the integral of |Δp| or |ΔT| over the compartments at the last report that is assumed
+  /// as it lies beyond that, [0, 1]; of pressure and temperature the larger one. Likewise.
+  std::optional<double> field_assumed;
   std::vector<std::string> warnings;
   double seconds = 0;  ///< wall; not compared.
 };

@@ -90,6 +90,7 @@ void for_each_field(Of<StepResult> auto& s, auto&& visit) {
   visit(Field{"stage"}, s.stage);
   visit(Field{"time_s"}, s.time);
   visit(Field{"pressure_change_pa"}, s.pressure_change);
+  visit(Field{.key = "temperature_change_k", .since = 20}, s.temperature_change);
   visit(Field{"outcome"}, s.outcome);
   visit(Field{"reason"}, s.reason);
   visit(Field{"n_stick"}, s.n_stick);
@@ -212,6 +213,7 @@ void for_each_field(Of<CaseResult> auto& c, auto&& visit) {
   visit(Field{.key = "coupled", .since = 13}, c.coupled);
   visit(Field{.key = "surface", .since = 13}, c.surface);
   visit(Field{.key = "field_coverage", .since = 16}, c.field_coverage);
+  visit(Field{.key = "field_assumed", .since = 20}, c.field_assumed);
   visit(Field{"warnings"}, c.warnings);
   visit(Field{"wall_s"}, c.seconds);
 }

@@ -22,6 +22,26 @@ void write_file_pair(const std::filesystem::path& folder, const std::string& nam
   xmf.commit();
 }
 
+namespace {
+
+/// A value per cell and snapshot, where the first snapshot has it.
+void add_cell_changes(hid_t file, const std::vector<VolumeSnapshot>& snapshots, std::size_t n_cells,
+                      Eigen::VectorXd VolumeSnapshot::*change, const std::string& name,
+                      const hdf5::About& about, XdmfGrid& grid) {
+  if ((snapshots.front().*change).size() == 0) return;
+  hdf5::GrowingArray values(file, "/" + name, H5T_IEEE_F64LE, n_cells, 1, about);
+  for (const VolumeSnapshot& snapshot : snapshots) {
+    const Eigen::VectorXd& of_cells = snapshot.*change;
+    FAULTSIM_DEMAND(static_cast<std::size_t>(of_cells.size()) == n_cells && of_cells.allFinite(),
+                    name, " of ", of_cells.size(), " cells");
+    values.append(H5T_NATIVE_DOUBLE, of_cells.data());
+  }
+  grid.attributes.push_back(
+      {name, {.path = "/" + name, .shape = {n_cells}, .offsets = values.offsets()}, true});
+}
+
+}  // namespace
+
 void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::Vector3d>& nodes,
                   const VolumeCells& cells, const std::vector<int>& material,
                   const std::vector<VolumeSnapshot>& snapshots) {
@@ -69,6 +89,11 @@ void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::
          {.path = "/displacement", .shape = {n_nodes, 3}, .offsets = displacement.offsets()},
          false,
          true});
+    add_cell_changes(file, snapshots, n_cells, &VolumeSnapshot::pressure_change, "pressure_change",
+                     {"Pa", "pressure change in compartments since the initial state"}, grid);
+    add_cell_changes(file, snapshots, n_cells, &VolumeSnapshot::temperature_change,
+                     "temperature_change",
+                     {"K", "temperature change in compartments since the initial state"}, grid);
   }
   write_file_pair(folder, "volume", file, {grid}, times);
 }

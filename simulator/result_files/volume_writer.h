@@ -17,11 +17,14 @@ struct VolumeCells {
 
 struct VolumeSnapshot {
   std::string name;
-  double time;                    ///< s.
-  Eigen::Matrix3Xd displacement;  ///< m, per node.
+  double time;                              ///< s.
+  Eigen::Matrix3Xd displacement;            ///< m, per node.
+  Eigen::VectorXd pressure_change = {};     ///< Pa, per cell; of all snapshots or of none.
+  Eigen::VectorXd temperature_change = {};  ///< K, per cell, likewise.
 };
 
-/// Displacements of the whole mesh at named steps: FOLDER/volume.h5 + volume.xmf.
+/// Displacements of the whole mesh, and what changes in its cells, at named steps:
+/// FOLDER/volume.h5 + volume.xmf.
 /// @param nodes     m.
 /// @param material  per cell.
 void write_volume(const std::filesystem::path& folder, const std::vector<Eigen::Vector3d>& nodes,

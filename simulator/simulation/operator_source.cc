@@ -19,6 +19,14 @@ ProbingScenes probes_of(const LoadedScene& loaded) {
           }};
 }
 
+/// Loads of flow results, and how much of them is assumed.
+void take_loads(const FieldLoads& loads, PreparedOperator& prepared) {
+  prepared.loads = {loads.history};
+  prepared.field_coverage = loads.coverage;
+  prepared.field_assumed = assumed_share(loads.integrals);
+  prepared.integrals = loads.integrals;
+}
+
 /// What is to be said of the scene's flow results. Throws InputError where they do not fit.
 FieldCheck checked_fields(const LoadedScene& loaded) {
   FieldCheck check = check_fields(loaded.scene, loaded.plan);
@@ -90,8 +98,7 @@ void OperatorSource::add_fields(const LoadedScene& loaded, const CachePolicy& ca
   }
   const FieldLoads loads =
       fields_->at(loaded.scene, loaded.plan, *made.prepared.op, made.prepared.bulk.get());
-  made.prepared.loads = {loads.history};
-  made.prepared.field_coverage = loads.coverage;
+  take_loads(loads, made.prepared);
   for (const Remark& one : check.remarks) made.prepared.warnings.push_back(remark_text(one));
   CaseSurface& errors = *made.prepared.surface;
   errors.traction = std::max(errors.traction, fields_->traction_error());
@@ -166,8 +173,7 @@ OperatorSource::Made OperatorSource::with_fields(const LoadedScene& loaded,
   }
   Made made{cells_.prepared, is_new};
   if (!is_new) made.prepared.remark.clear();
-  made.prepared.loads = {known->loads.history};
-  made.prepared.field_coverage = known->loads.coverage;
+  take_loads(known->loads, made.prepared);
   made.prepared.warnings = known->warnings;
   return made;
 }

@@ -180,6 +180,7 @@ inline faultsim::CaseResult made_up_result_with_events(double strength) {
     *value = 1e-6 * number();
   }
   result.field_coverage = 1 / number();
+  result.field_assumed = 1 / number();
   return result;
 }
 

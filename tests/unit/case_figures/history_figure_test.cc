@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include "simulator/common/dates.h"
 #include "simulator/figure/palette.h"
+#include "simulator/flow/flow_field.h"
 #include "tests/unit/case_figures/read_curves.h"
 #include "tests/unit/case_figures/small_case.h"
 #include "tests/unit/figure/svg_reader.h"
@@ -59,6 +61,24 @@ TEST(DrawCase, HasTheTemperatureOfRegionsThatCool) {
     return p.size() == 3 && std::abs(p[1].y - (p[0].y + p[2].y) / 2) < 0.02 && p[2].y > p[0].y + 50;
   };
   EXPECT_TRUE(std::ranges::any_of(lines, has_half));
+}
+
+/// Of a flow result the means that the result has.
+TEST(DrawCase, HasTheMeanTemperaturesOfAFlowResult) {
+  Scene scene = field_scene();
+  scene.temperature_field.field = std::make_shared<FlowField>();
+  CaseResult result = small_result();
+  for (StepResult& step : result.steps) step.temperature_change = {0, -15.0 * step.step};
+  const std::string svg =
+      draw_case({result, scene, nullptr, {}}, {CaseChart::history, {}, {}, false});
+  EXPECT_THAT(svg, HasSubstr("mean ΔT, K"));
+  const auto lines =
+      figure::elements_of(svg, "polyline", "stroke", figure::fault_stroke(13).colour);
+  const auto falls = [](const figure::SvgElement& one) {
+    const auto p = one.points();
+    return p.size() == 3 && std::abs(p[1].y - (p[0].y + p[2].y) / 2) < 0.02 && p[2].y > p[0].y + 50;
+  };
+  EXPECT_TRUE(std::ranges::any_of(lines, falls));
 }
 
 TEST(DrawCase, AHistoryIsInYearsBarAndMillimetres) {

@@ -19,6 +19,7 @@
 namespace faultsim {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -191,8 +192,31 @@ TEST(PaintedSection, IsAsItWasWithoutAFieldOfPressures) {
     EXPECT_TRUE(look.painted.empty());
     EXPECT_FALSE(look.scale);
   }
-  scene.temperature_field = flow_result(falls_to_the_east);
-  EXPECT_EQ(draw_case(picture, {CaseChart::section, {}, 2, false}), plain);
+}
+
+/// Of a field of temperatures alone those, in K, which the numbers of pressures are 1e5 of.
+TEST(PaintedSection, ShowsTemperaturesWhereThereAreNoPressures) {
+  Scene cooled = painted_scene(flow_result(falls_to_the_east));
+  const CaseResult result = small_result();
+  const auto drawn = [&](const Scene& scene) {
+    return draw_case({result, scene, nullptr, {}}, {CaseChart::section, {}, 2, false});
+  };
+  const std::string pressures = drawn(cooled);
+  std::swap(cooled.temperature_field, cooled.pressure_field);
+  FlowField kelvin = *cooled.temperature_field.field;
+  kelvin.value /= 1e5;
+  cooled.temperature_field.field = std::make_shared<const FlowField>(kelvin);
+  const std::string temperatures = drawn(cooled);
+  EXPECT_THAT(temperatures, AllOf(HasSubstr("ΔT, K"), HasSubstr("flow result&#39;s temperature"),
+                                  Not(HasSubstr("Δp, bar"))));
+  const auto fills = [](const std::string& svg) {
+    std::vector<std::string> all;
+    for (const figure::SvgElement& one : figure::elements_of(svg))
+      if (one.name == "polygon") all.push_back(one.attributes.at("fill"));
+    return all;
+  };
+  EXPECT_EQ(fills(temperatures), fills(pressures));
+  EXPECT_GT(fills(temperatures).size(), 100u);
 }
 
 TEST(PaintedSection, SaysWhereFlowCellsLieOverEachOther) {

@@ -12,7 +12,9 @@
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/loads/case_loads.h"
 #include "simulator/loads/history.h"
+#include "simulator/operators/cell_changes.h"
 #include "simulator/reading/read_scene.h"
+#include "simulator/scene/field_depths.h"
 
 namespace faultsim {
 namespace {
@@ -230,6 +232,13 @@ TEST_F(FieldLoadsTest, OfTwoFieldsAreTheSumAtTheTimesOfBoth) {
   const FieldHistory sum = *field_loads(both, cells()).history;
   const FieldHistory a = *field_loads(wet, cells()).history, b = *field_loads(hot, cells()).history;
   EXPECT_EQ(sum.time, (std::vector<double>{0, kYear, 1.5 * kYear, 2 * kYear}));
+  const CaseLoads loads(both, *prepared_.op, {std::make_shared<FieldHistory>(sum)});
+  EXPECT_THAT(loads.at(0.75 * kYear).temperature_change,
+              testing::Each(testing::DoubleNear(-7.5, 1e-9)));
+  EXPECT_THAT(CaseLoads(wet, *prepared_.op, {std::make_shared<FieldHistory>(a)})
+                  .at(kYear)
+                  .temperature_change,
+              testing::IsEmpty());
   for (const double t : {0.5, 1.0, 1.2, 1.5, 1.9}) {
     const Eigen::VectorXd expected =
         at_time(a.time, a.locked, t * kYear) + at_time(b.time, b.locked, t * kYear);
@@ -390,6 +399,77 @@ TEST_F(FieldLoadsTest, SayWhatBecameOfCellsThatAreNotCovered) {
                                       HasSubstr("covered in part take that part's mean; of the "
                                                 "integral of its change at the last report 11.72 % "
                                                 "lies in what is covered"))));
+}
+
+/// Half of the west is covered, and pressures fall more there than what the rest takes.
+TEST_F(FieldLoadsTest, SayWhichPartOfTheIntegralIsAssumed) {
+  FlowField field = boxes(2);
+  std::vector<FieldIntegral> whole = loads_of(field).integrals;
+  ASSERT_EQ(whole.size(), prepared_.block->region_names.size());
+  EXPECT_TRUE(whole[0].is_whole());
+  EXPECT_EQ(field_integrals_to_text(whole), "");
+  std::erase_if(field.cells, [](const FlowCell& cell) { return cell.low.x() < -1000; });
+  field.value = Eigen::MatrixXd::Constant(std::ssize(field.cells), 2, 3e7);
+  double flow = 0;  // of the flow cells within the west, by hand
+  const MappedCell west{.corners = block_corners(scene_, 0), .region = 0};
+  for (std::size_t c = 0; c < field.cells.size(); ++c) {
+    const double fall = 1e6 + 10 * field.cells[c].low.x();
+    field.value(static_cast<Eigen::Index>(c), 1) -= fall;
+    flow -= fall * overlap_volume(at_section(west.corners, 0), field.cells[c]);
+  }
+  const FieldLoads loads = loads_of(field);
+  const FieldIntegral& one = loads.integrals[0];
+  EXPECT_EQ(one.region, "west");
+  EXPECT_GT(one.n_outside, 0);
+  EXPECT_NEAR(one.has, flow, 1e-9 * std::abs(flow));
+  EXPECT_LT(one.acts, 1.5 * one.has);
+  EXPECT_NEAR(one.acts, loads.history->region_change(0, 1) * one.volume,
+              1e-12 * std::abs(one.acts));
+  EXPECT_NEAR(one.covered / one.volume,
+              loads.mapping.coverage[0].covered / loads.mapping.coverage[0].volume, 1e-12);
+  EXPECT_THAT(field_integrals_to_text(loads.integrals),
+              testing::AllOf(testing::StartsWith("pressure field on west: "),
+                             testing::HasSubstr("% of its volume is covered; of the integral of "
+                                                "the change that acts at the last report, -"),
+                             testing::HasSubstr("cells take what the nearest flow cell has")));
+  const json rows = field_integrals_to_json(loads.integrals);
+  EXPECT_EQ(rows[0]["integral_of_flow_cells"], one.has);
+  // All of it falls.
+  EXPECT_NEAR(rows[0]["assumed_share"].get<double>(), 1 - one.has / one.acts, 1e-12);
+  double has = 0, acts = 0;
+  for (const FieldIntegral& each : loads.integrals) has += each.has, acts += each.acts;
+  EXPECT_NEAR(assumed_share(loads.integrals), 1 - has / acts, 1e-12);
+  EXPECT_GT(assumed_share(loads.integrals), 0.1);
+}
+
+/// The mean over each compartment of what pictures show is what acts there.
+TEST_F(FieldLoadsTest, AreShownInCellsAsTheyAct) {
+  FlowField field = boxes(2);
+  std::erase_if(field.cells, [](const FlowCell& cell) { return cell.low.x() > 1000; });
+  field.value = Eigen::MatrixXd::Constant(std::ssize(field.cells), 2, 3e7);
+  for (std::size_t c = 0; c < field.cells.size(); ++c)
+    field.value(static_cast<Eigen::Index>(c), 1) -= 4e6 + 100 * field.cells[c].low.x();
+  const Scene scene = with(field);
+  const FieldLoads loads = field_loads(scene, cells());
+  const CellChanges shown(scene, mesh_);
+  ASSERT_TRUE(shown.has_pressure());
+  EXPECT_FALSE(shown.has_temperature());
+  EXPECT_EQ(shown.pressure(0).norm(), 0);
+  const Eigen::VectorXd half = shown.pressure(0.5 * kYear);
+  for (std::size_t c = 0; c < mesh_.cells.size(); ++c) {
+    if (mesh_.region[c] < 0) {
+      EXPECT_EQ(half[static_cast<Eigen::Index>(c)], 0);
+    }
+  }
+  for (Eigen::Index r = 0; r < 2; ++r) {
+    double sum = 0, volume = 0;
+    for (const InfluenceCell& cell : prepared_.block->cells) {
+      if (cell.region != r) continue;
+      sum += cell.fraction * cell.volume * half[cell.cell];
+      volume += cell.fraction * cell.volume;
+    }
+    EXPECT_NEAR(sum / volume, 0.5 * loads.history->region_change(r, 1), 1e-3) << r;
+  }
 }
 
 TEST_F(FieldLoadsTest, HaveAKeyOfWhatTheyLookAt) {

@@ -202,6 +202,14 @@ TEST_F(ReportTest, ShowSaysHowAResultCameAboutAndWhyFiguresDiffer) {
   one.initial = {{"west", 2000, -4e7, -3e7, -3e7, 2e7}, {"east", 2100, -4e7, -3e7, -3e7, 2e7}};
   EXPECT_THAT(text(), HasSubstr("Δp west, bar  Δp east, bar"));
   EXPECT_EQ(render_json(to_answer(one))["initial_state"][1]["depth_m"], 2100.0);
+  EXPECT_THAT(text(), Not(HasSubstr("ΔT")));
+  EXPECT_THAT(text(), Not(HasSubstr("pressure is")));
+  for (faultsim::StepResult& step : one.stored.result.steps)
+    step.temperature_change = {0, -1.0 * step.step};
+  one.initial[1].source = "report of 1990-01-01";
+  EXPECT_THAT(text(), HasSubstr("ΔT east, K"));
+  EXPECT_EQ(render_json(to_answer(one))["histories"][25]["temperature_change_k"]["east"], -12.0);
+  EXPECT_THAT(text(), HasSubstr("mean of the report of 1990-01-01"));
   one.stored.result.stages[2].moment = 4.59e14;
   one.stored.result.whole.moment = 4.52e14;
   for (const std::size_t k : {0u, 1u}) one.stored.result.stages[k].moment = 0;

@@ -77,6 +77,15 @@ TEST(ApproximationSentence, SaysWhatAFlowResultCoversAndNoMore) {
   }
 }
 
+TEST(ApproximationSentence, SaysHowMuchOfTheChangeIsNotAssumed) {
+  CaseResult result;
+  result.field_coverage = 0.26;
+  result.field_assumed = 0.6;
+  EXPECT_EQ(approximation_sentence(result),
+            "Its flow result covers 26 % of the compartments, and 40 % of the integral of its "
+            "change there.");
+}
+
 TEST(ApproximationSentence, SaysBothOneAfterTheOther) {
   CaseResult result = interpolated();
   result.field_coverage = 0.5;

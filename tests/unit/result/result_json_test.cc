@@ -93,6 +93,7 @@ CaseResult example_result() {
     step.n_open = 1;
     if (i < 2) step.faults = {example_metrics(), FaultMetrics{}};
     step.observed = {-0.01 * i};
+    if (i > 0) step.temperature_change = {-12.5 / 3, 0};
     step.counts = {3, 2, 1, i};
     step.seconds = 0.25;
     r.steps.push_back(step);
@@ -109,6 +110,7 @@ CaseResult example_result() {
   r.surface->largest_slip = 2e-2 / 3;
   r.surface->flags_that_differ = 2;
   r.field_coverage = 0.8 / 3;
+  r.field_assumed = 0.7 / 3;
   r.warnings = {"a", "b"};
   r.seconds = 1.5;
   return r;
@@ -157,6 +159,8 @@ TEST(ResultJson, ComesBackComplete) {
   EXPECT_EQ(copy.unexpected, result.unexpected);
   EXPECT_EQ(copy.surface, result.surface);
   EXPECT_EQ(copy.field_coverage, result.field_coverage);
+  EXPECT_EQ(copy.field_assumed, result.field_assumed);
+  EXPECT_EQ(copy.steps[1].temperature_change, result.steps[1].temperature_change);
   EXPECT_FALSE(copy.stages[1].magnitude_if_at_once.has_value());
   EXPECT_FALSE(copy.weakening_resolved);
   EXPECT_EQ(copy.pressure_margin, result.pressure_margin);
@@ -177,7 +181,7 @@ TEST(ResultJson, NamesCarryUnits) {
 /// A result of an older program has no such keys, one without has null.
 TEST(ResultJson, HowExactAResultIsMayBeMissing) {
   json document = result_to_json(example_result());
-  for (const char* key : {"surface", "field_coverage"}) {
+  for (const char* key : {"surface", "field_coverage", "field_assumed"}) {
     EXPECT_TRUE(document.contains(key));
     document.erase(key);
     EXPECT_TRUE(result_to_json(CaseResult()).at(key).is_null()) << key;
@@ -185,6 +189,7 @@ TEST(ResultJson, HowExactAResultIsMayBeMissing) {
   const CaseResult old = result_from_json(document);
   EXPECT_FALSE(old.surface);
   EXPECT_FALSE(old.field_coverage);
+  EXPECT_FALSE(old.field_assumed);
 }
 
 TEST(ResultJson, SameResultGivesSameText) {
@@ -225,13 +230,14 @@ TEST(ResultJson, SchemaRefusesWhatIsMissingUnknownOrOfAnotherType) {
   }
 }
 
-/// Every object of the schema describes, and requires, each of its properties; but for
-/// initial_state, which `faultsim run` alone adds.
+/// Every object of the schema describes, and requires, each of its properties; but for what
+/// `faultsim run` alone adds, and what of that a flow result does.
 void expect_described(const json& node, const std::string& where) {
   if (node.contains("properties")) {
-    EXPECT_EQ(node.at("properties").size() - node.at("properties").count("initial_state"),
-              node.at("required").size())
-        << where;
+    std::size_t n = node.at("properties").size();
+    for (const char* added : {"initial_state", "field_integrals", "pressure_from"})
+      n -= node.at("properties").count(added);
+    EXPECT_EQ(n, node.at("required").size()) << where;
     const bool has_measures = where == "/definitions/stage" || where == "/definitions/fault_stage";
     EXPECT_TRUE(node.at("additionalProperties") == false || has_measures) << where;
     for (const auto& [name, property] : node.at("properties").items()) {

@@ -407,6 +407,25 @@ TEST(Volume, DisplacementsComeBack) {
   EXPECT_TRUE(std::equal(end.begin(), end.end(), snapshots[1].displacement.data()));
 }
 
+TEST(Volume, HasWhatChangesInItsCells) {
+  const ScratchFolder folder;
+  const std::vector<Eigen::Vector3d> nodes(12, Eigen::Vector3d::Ones());
+  const std::vector<int> cells = {0, 1, 2, 3, 4, 5, 6, 7, 4, 5, 6, 7, 8, 9, 10, 11};
+  std::vector<VolumeSnapshot> snapshots(2, {"end", 0, Eigen::Matrix3Xd::Zero(3, 12)});
+  snapshots[0].pressure_change = Eigen::Vector2d(-3, 0);
+  snapshots[1].pressure_change = Eigen::Vector2d(-8, 2);
+  write_volume(folder.path(), nodes, {cells, 8}, {3, 4}, snapshots);
+  const H5File file(folder.path() / "volume.h5");
+  EXPECT_THAT(file.read("/pressure_change").shape, ElementsAre(2, 2));
+  EXPECT_THAT(file.read("/pressure_change").values, ElementsAre(-3, 0, -8, 2));
+  expect_references_hold(folder.path() / "volume.xmf", 6);
+  EXPECT_THAT(
+      numbers_at(folder.path() / "volume.xmf", "volume\" GridType=\"Uniform", "pressure_change", 1),
+      ElementsAre(-8, 2));
+  EXPECT_THAT(read_bytes(folder.path() / "volume.xmf"),
+              testing::Not(HasSubstr("temperature_change")));
+}
+
 TEST(Volume, WithoutSnapshotsShowsTheMesh) {
   const ScratchFolder folder;
   const std::vector<Eigen::Vector3d> nodes(8, Eigen::Vector3d::Ones());

@@ -29,6 +29,8 @@ CaseResult approximate() {
   result.surface->largest_slip = 2e-2 / 7;
   result.surface->flags_that_differ = 2;
   result.field_coverage = 0.26 / 3;
+  result.field_assumed = 0.71 / 3;
+  result.steps[1].temperature_change = {-12.5 / 3, 0};
   return result;
 }
 
@@ -91,9 +93,13 @@ TEST_F(Approximation, ComesBackBitForBit) {
   const CaseResult back = *store.stored_result(1), exact = *store.stored_result(2);
   EXPECT_EQ(back.surface, result.surface);
   EXPECT_EQ(back.field_coverage, result.field_coverage);
+  EXPECT_EQ(back.field_assumed, result.field_assumed);
   EXPECT_EQ(first_difference(back, result), "");
+  EXPECT_EQ(back.steps[1].temperature_change, result.steps[1].temperature_change);
+  EXPECT_TRUE(back.steps[0].temperature_change.empty());
   EXPECT_FALSE(exact.surface);
   EXPECT_FALSE(exact.field_coverage);
+  EXPECT_FALSE(exact.field_assumed);
   EXPECT_TRUE(store.stored_case(1, "1").result.surface) << "as it is shown";
 }
 
@@ -134,7 +140,7 @@ TEST_F(Approximation, IsSealedWithItsResultAndBackedUp) {
     std::filesystem::copy(folder_ / "copy" / "campaign.sqlite", folder_ / "campaign.sqlite");
     EXPECT_THAT(problems(), IsEmpty());
   }
-  change("UPDATE case_metrics SET field_coverage = NULL");
+  change("UPDATE case_metrics SET field_assumed = NULL");
   EXPECT_THAT(problems(), differs);
 }
 
@@ -151,9 +157,10 @@ TEST_F(Approximation, StandsBesideTheMeasuresInTheViews) {
     EXPECT_EQ(of("surface_error_of_slip", 1), surface.slip);
     EXPECT_EQ(of("surface_error_of_stability", 1), *surface.stability);
     EXPECT_EQ(of("field_coverage", 1), 0.26 / 3);
+    EXPECT_EQ(of("field_assumed", 1), 0.71 / 3);
     const char* none =
         "coalesce(surface_operators, surface_error_of_stiffness, surface_error_of_traction,"
-        " surface_error_of_slip, field_coverage) IS NULL";
+        " surface_error_of_slip, field_coverage, field_assumed) IS NULL";
     EXPECT_EQ(of(none, 2), 1) << view;
     EXPECT_EQ(of("count(*)", 1), of("count(*)", 2)) << "no row is lost or doubled in " << view;
   }
@@ -164,6 +171,8 @@ constexpr const char* kBack =
     "DROP VIEW ranking; DROP VIEW stage_ranking; DROP VIEW fault_ranking;"
     "CREATE VIEW ranking AS SELECT case_id FROM case_metrics;"
     "DROP TABLE case_surfaces; ALTER TABLE case_metrics DROP COLUMN field_coverage;"
+    "ALTER TABLE case_metrics DROP COLUMN field_assumed;"
+    "ALTER TABLE load_steps DROP COLUMN temperature_change_k;"
     "DELETE FROM migrations WHERE version > 15; PRAGMA user_version = 15;"
     "UPDATE checksum_schema SET version = 15";
 

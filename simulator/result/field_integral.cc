@@ -1,0 +1,79 @@
+#include "simulator/result/field_integral.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "simulator/common/text.h"
+
+namespace faultsim {
+namespace {
+
+std::string line_of(const FieldIntegral& one) {
+  const bool is_pressure = one.field == "pressure";
+  const double unit = is_pressure ? 1e5 : 1;  // Pa
+  std::string text = formatted(
+      "%s field on %s: %.4g %% of its volume is covered; of the integral of the change that acts "
+      "at the last report, %.4g %s m3, the flow result has %.4g",
+      one.field.c_str(), one.region.c_str(), 100 * one.covered / one.volume, one.acts / unit,
+      is_pressure ? "bar" : "K", one.has / unit);
+  if (one.assumed > 0) {
+    text += formatted("; %.3g %% is assumed: ", 100 * one.assumed_share());
+    if (one.n_outside > 0)
+      text += concat(one.n_outside, " of ", one.n_cells,
+                     one.takes_nearest ? " cells take what the nearest flow cell has"
+                                       : " cells do not change");
+    if (one.n_partly > 0)
+      text += concat(one.n_outside > 0 ? ", " : "", one.n_partly, " the mean of a part");
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+bool FieldIntegral::is_whole() const {
+  constexpr double kWhole = 1 - 1e-6;
+  return covered >= kWhole * volume;
+}
+
+double FieldIntegral::assumed_share() const { return size > 0 ? assumed / size : 0; }
+
+double assumed_share(const std::vector<FieldIntegral>& integrals) {
+  double largest = 0;
+  for (const char* field : {"pressure", "temperature"}) {
+    FieldIntegral all;
+    for (const FieldIntegral& one : integrals) {
+      if (one.field != field) continue;
+      all.size += one.size;
+      all.assumed += one.assumed;
+    }
+    largest = std::max(largest, all.assumed_share());
+  }
+  return std::min(largest, 1.0);
+}
+
+nlohmann::json field_integrals_to_json(const std::vector<FieldIntegral>& integrals) {
+  nlohmann::json rows = nlohmann::json::array();
+  for (const FieldIntegral& one : integrals) {
+    rows.push_back({{"field", one.field},
+                    {"region", one.region},
+                    {"volume_m3", one.volume},
+                    {"covered_m3", one.covered},
+                    {"cells", one.n_cells},
+                    {"cells_outside", one.n_outside},
+                    {"cells_partly", one.n_partly},
+                    {"integral_that_acts", one.acts},
+                    {"integral_of_flow_cells", one.has},
+                    {"assumed_share", one.assumed_share()}});
+  }
+  return rows;
+}
+
+std::string field_integrals_to_text(const std::vector<FieldIntegral>& integrals) {
+  std::string text;
+  for (const FieldIntegral& one : integrals) {
+    if (!one.is_whole()) text += line_of(one);
+  }
+  return text;
+}
+
+}  // namespace faultsim
