@@ -37,12 +37,17 @@ const char* word_of(EndKind kind) {
 
 }  // namespace
 
-std::string structure_text(const GridStructure& structure) {
+std::string remarks_text(const std::vector<StructureRemark>& remarks) {
   std::string text;
-  for (const StructureRemark& remark : structure.report) {
+  for (const StructureRemark& remark : remarks) {
     text += word_of(remark.kind) + remark.text;
     text += remark.option.empty() ? "\n" : " [" + remark.option + "]\n";
   }
+  return text;
+}
+
+std::string structure_text(const GridStructure& structure) {
+  std::string text = remarks_text(structure.report);
   constexpr double kDegree = std::numbers::pi / 180;
   if (!structure.faults.empty())
     text += "\nfault  edges  length m  offset m  dip deg  towards deg  ends\n";

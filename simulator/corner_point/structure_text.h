@@ -1,10 +1,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "simulator/corner_point/grid_structure.h"
 
 namespace faultsim::corner_point {
+
+/// Remarks as plain text: a sentence a line, with what changes it in brackets.
+std::string remarks_text(const std::vector<StructureRemark>& remarks);
 
 /// The report as plain text: a sentence a line, then a table of faults and one of compartments.
 std::string structure_text(const GridStructure& structure);

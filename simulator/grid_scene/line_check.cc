@@ -1,0 +1,111 @@
+#include "simulator/grid_scene/line_check.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "simulator/grid_scene/trace_ends.h"
+#include "simulator/horizons/body_check.h"
+#include "simulator/horizons/map_mesh.h"
+#include "simulator/horizons/pillars.h"
+#include "simulator/horizons/traces.h"
+
+namespace faultsim::grid_scene {
+namespace {
+
+horizons::TraceEnd end_of_trace(LineEnd end) {
+  return end == LineEnd::fault ? horizons::TraceEnd::at_fault : horizons::TraceEnd::in_rock;
+}
+
+/// The number behind "/faults/"; −1: it points elsewhere.
+int fault_in(const std::string& pointer) {
+  const std::string begin = "/faults/";
+  if (pointer.rfind(begin, 0) != 0) return -1;
+  int number = -1;
+  std::from_chars(pointer.data() + begin.size(), pointer.data() + pointer.size(), number);
+  return number;
+}
+
+/// Faults that cross each other at a flat angle, or a second time: the later one of them.
+std::optional<Misfit> flat_crossing(const ModelLines& lines) {
+  constexpr double kLeast = 26 * std::numbers::pi / 180;
+  for (std::size_t q = 0; q < lines.faults.size(); ++q) {
+    for (std::size_t p = 0; p < q; ++p) {
+      const auto crossing = crossing_beyond(lines.faults[q].trace, lines.faults[p].trace, 0);
+      if (!crossing || crossing->angle >= kLeast) continue;
+      return Misfit{static_cast<int>(q),
+                    concat("it crosses ", lines.faults[p].name, " at ",
+                           std::round(crossing->angle * 180 / std::numbers::pi), " degrees")};
+    }
+  }
+  return std::nullopt;
+}
+
+/// What the builder would say before it looks at horizons.
+std::vector<Problem> problems_of(const horizons::LayeredBody& body) {
+  std::vector<Problem> problems;
+  horizons::check_numbers(body, problems);
+  if (!problems.empty()) return problems;
+  const horizons::MapLines met = horizons::meeting_lines(body, problems);
+  if (!problems.empty()) return problems;
+  const horizons::MapMesh map = horizons::mesh_map(body, met, problems);
+  if (!problems.empty()) return problems;
+  horizons::check_faults_in_depth(body, map, problems);
+  if (!problems.empty()) return problems;
+  const horizons::Pillars pillars(body, map);
+  horizons::check_pillars(body, map, pillars, problems);
+  return problems;
+}
+
+/// The last fault without which lines fit; −1: none.
+int fault_to_blame(const ModelLines& lines) {
+  for (int f = static_cast<int>(lines.faults.size()); f-- > 0;) {
+    ModelLines without = lines;
+    without.faults.erase(without.faults.begin() + f);
+    if (problems_of(body_of_lines(without)).empty()) return f;
+  }
+  return -1;
+}
+
+}  // namespace
+
+horizons::LayeredBody body_of_lines(const ModelLines& lines) {
+  horizons::LayeredBody body;
+  body.low = lines.low;
+  body.high = lines.high;
+  body.base = lines.base;
+  body.trace_depth = lines.reference_z;
+  body.layers = {{0}};
+  body.cells.at_faults = lines.strike;
+  for (const ModelFault& fault : lines.faults) {
+    body.faults.push_back(
+        {.name = fault.name,
+         .trace = fault.trace,
+         .first_end = end_of_trace(fault.first_end),
+         .last_end = end_of_trace(fault.last_end),
+         .dips_to = fault.lean >= 0 ? horizons::DipSide::right : horizons::DipSide::left,
+         .dip = std::atan2(1, std::abs(fault.lean)),
+         .listric = {},
+         .top = fault.top,
+         .bottom = fault.bottom,
+         .moved = {}});
+  }
+  for (const ModelDivider& divider : lines.dividers)
+    body.dividers.push_back({divider.name, divider.line});
+  return body;
+}
+
+std::optional<Misfit> first_misfit(const ModelLines& lines) {
+  if (const std::optional<Misfit> flat = flat_crossing(lines)) return flat;
+  const std::vector<Problem> problems = problems_of(body_of_lines(lines));
+  if (problems.empty()) return std::nullopt;
+  Misfit last;  // the last of the faults: the shortest
+  for (const Problem& problem : problems) {
+    const int fault = fault_in(problem.pointer);
+    if (last.what.empty() || fault > last.fault) last = {fault, problem.what};
+  }
+  if (last.fault < 0) last.fault = fault_to_blame(lines);
+  return last;
+}
+
+}  // namespace faultsim::grid_scene

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "simulator/common/errors.h"
+#include "simulator/grid_scene/model_lines.h"
+#include "simulator/horizons/layered_body.h"
+
+namespace faultsim::grid_scene {
+
+/// The lines as the builder of bodies takes them: a plane reservoir where traces are, no
+/// compartments.
+horizons::LayeredBody body_of_lines(const ModelLines& lines);
+
+/// Why lines do not fit.
+struct Misfit {
+  int fault = -1;  ///< the one to leave out; −1: none of them alone.
+  std::string what;
+};
+
+/// What the builder says of the lines, of cells between them and of faults in depth, before it
+/// looks at horizons; of faults that cross flatly the later one is to blame.
+std::optional<Misfit> first_misfit(const ModelLines& lines);
+
+}  // namespace faultsim::grid_scene

@@ -1,0 +1,387 @@
+#include "simulator/grid_scene/model_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
+#include "simulator/corner_point/column_map.h"
+#include "simulator/corner_point/fault_description.h"
+#include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/line_check.h"
+#include "simulator/grid_scene/mesh_size.h"
+#include "simulator/grid_scene/outline.h"
+#include "simulator/grid_scene/trace_ends.h"
+
+namespace faultsim::grid_scene {
+namespace {
+
+using corner_point::ColumnMap;
+using corner_point::CornerPointGrid;
+using corner_point::EndKind;
+using corner_point::Fault;
+using corner_point::FaultEnd;
+using corner_point::GridStructure;
+using corner_point::line_length;
+using corner_point::nearest_on_line;
+using corner_point::RemarkKind;
+using Eigen::Vector2d;
+
+std::string metres(double value) { return formatted("%.0f m", value); }
+
+/// tan of dip_from_vertical, > 0 to the right.
+double lean_of(const Fault& fault) {
+  if (fault.dips_towards == corner_point::Side::neither) return 0;
+  const double size = 1 / std::tan(fault.dip.median);
+  return fault.dips_towards == corner_point::Side::right ? size : -size;
+}
+
+class LineMaker {
+ public:
+  LineMaker(const CornerPointGrid& grid, const GridStructure& structure, const LineOptions& options,
+            Remarks& remarks)
+      : grid_(grid),
+        structure_(structure),
+        options_(options),
+        remarks_(remarks),
+        map_(grid),
+        cell_(median_cell(map_)) {}
+
+  ModelLines make() {
+    lines_.reference_z = structure_.reference_z;
+    lines_.outlines = active_outlines(map_, cell_, lines_.reference_z, remarks_);
+    take_box();
+    lines_.strike = chosen_strike(structure_, lines_, cell_, options_, remarks_);
+    std::string trouble = fit();
+    if (!trouble.empty()) {
+      for (Polyline& outline : lines_.outlines) outline = hull_of(outline);
+      remarks_.push_back({RemarkKind::choice,
+                          "the outline of the active map is its convex hull: the nearer one did "
+                          "not fit with the faults (" +
+                              trouble + ")",
+                          ""});
+      trouble = fit();
+    }
+    if (!trouble.empty())
+      remarks_.push_back({RemarkKind::warning, "lines do not fit together yet: " + trouble, ""});
+    say_left_out();
+    return std::move(lines_);
+  }
+
+ private:
+  void take_box();
+  std::string fit();
+  void draw_faults();
+  std::optional<ModelFault> drawn(int source) const;
+  void draw_depths(const Fault& fault, ModelFault& drawn) const;
+  void open_v_ends();
+  void draw_ends(std::size_t f);
+  void draw_end(std::size_t f, bool is_last);
+  Polyline at_tip(const Polyline& trace, std::size_t f, LineEnd& kind) const;
+  bool is_clear(const Vector2d& from, const Vector2d& to, std::size_t except) const;
+  void draw_dividers();
+  void draw_extension(const ModelFault& fault, bool is_last);
+  int model_of(int source) const;
+  void leave_out(int source, const std::string& why) { left_out_.emplace_back(source, why); }
+  void say_left_out();
+  bool is_left_out(int source) const {
+    return contains(left_out_, source, &std::pair<int, std::string>::first);
+  }
+
+  const CornerPointGrid& grid_;
+  const GridStructure& structure_;
+  const LineOptions& options_;
+  Remarks& remarks_;
+  ColumnMap map_;
+  double cell_;
+  ModelLines lines_;
+  std::vector<std::pair<int, std::string>> left_out_;  ///< faults of the structure, and why.
+};
+
+void LineMaker::take_box() {
+  double lowest = 0;
+  Vector2d low = Vector2d::Constant(1e300), high = -low;
+  for (int column = 0; column < grid_.n_columns(); ++column) {
+    if (!map_.is_active(column)) continue;
+    for (const bool right : {false, true}) {
+      for (const bool back : {false, true}) {
+        const Eigen::Vector3d at =
+            grid_.corner(column, map_.base_layer(column), {right, back, true});
+        lowest = std::min(lowest, at.z());
+        low = low.cwiseMin(at.head<2>());
+        high = high.cwiseMax(at.head<2>());
+      }
+    }
+  }
+  constexpr double kLeastMargin = 5000, kRound = 500;
+  const double margin = options_.margin > 0 ? options_.margin : std::max(kLeastMargin, -2 * lowest);
+  for (int axis = 0; axis < 2; ++axis) {
+    lines_.low[axis] = kRound * std::floor((low[axis] - margin) / kRound);
+    lines_.high[axis] = kRound * std::ceil((high[axis] + margin) / kRound);
+  }
+  lines_.base =
+      options_.base_depth > 0 ? -options_.base_depth : kRound * std::floor(2 * lowest / kRound);
+  remarks_.push_back({RemarkKind::choice,
+                      "the model ends " + metres(margin) + " or more beside the active map and " +
+                          metres(-lines_.base) + " deep, with rollers",
+                      "--margin, --base"});
+}
+
+/// Draws all lines; what does not fit with others is left out, one fault after the other.
+/// @returns "" or what is still wrong.
+std::string LineMaker::fit() {
+  for (std::size_t round = 0; round <= structure_.faults.size(); ++round) {
+    draw_faults();
+    draw_dividers();
+    const std::optional<Misfit> misfit = first_misfit(lines_);
+    if (!misfit) return "";
+    if (misfit->fault < 0) return misfit->what;
+    leave_out(lines_.faults[misfit->fault].source, misfit->what);
+  }
+  return "faults do not fit together";
+}
+
+void LineMaker::draw_faults() {
+  lines_.faults.clear();
+  for (int f = 0; f < static_cast<int>(structure_.faults.size()); ++f) {
+    if (is_left_out(f)) continue;
+    if (structure_.faults[f].begin.kind == EndKind::closed) {
+      leave_out(f, "it runs back into itself");
+      continue;
+    }
+    if (std::optional<ModelFault> one = drawn(f)) lines_.faults.push_back(std::move(*one));
+  }
+  open_v_ends();
+  for (std::size_t f = 0; f < lines_.faults.size(); ++f) draw_ends(f);
+}
+
+std::optional<ModelFault> LineMaker::drawn(int source) const {
+  const Fault& fault = structure_.faults[source];
+  ModelFault drawn{.name = concat("F", source + 1), .source = source, .trace = fault.trace};
+  drawn.lean = lean_of(fault);
+  draw_depths(fault, drawn);
+  return drawn;
+}
+
+void LineMaker::draw_depths(const Fault& fault, ModelFault& drawn) const {
+  drawn.top = -1e300;
+  drawn.bottom = 1e300;
+  for (const corner_point::FaultEdge& edge : fault.edges) {
+    for (const int column : {edge.left, edge.right}) {
+      for (const int pillar : {edge.from, edge.to}) {
+        corner_point::CornerPlace corner = map_.corner_at(column, pillar);
+        drawn.top = std::max(drawn.top, grid_.z(column, map_.top_layer(column), corner));
+        corner.bottom = true;
+        drawn.bottom = std::min(drawn.bottom, grid_.z(column, map_.base_layer(column), corner));
+      }
+    }
+  }
+  drawn.top = std::min(drawn.top + options_.overshoot, -lines_.strike);
+  drawn.bottom = std::max(drawn.bottom - options_.overshoot, lines_.base + lines_.strike);
+}
+
+int LineMaker::model_of(int source) const {
+  for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
+    if (lines_.faults[f].source == source) return static_cast<int>(f);
+  }
+  return -1;
+}
+
+/// Two faults that end at each other: the first goes on, the other ends at it.
+void LineMaker::open_v_ends() {
+  for (ModelFault& fault : lines_.faults) {
+    const Fault& source = structure_.faults[fault.source];
+    for (const bool is_last : {false, true}) {
+      const FaultEnd& end = is_last ? source.end : source.begin;
+      const int other = end.kind == EndKind::junction ? model_of(end.other) : -1;
+      if (other < 0 || lines_.faults[other].source > fault.source) continue;
+      const Vector2d at = is_last ? fault.trace.back() : fault.trace.front();
+      Polyline& through = lines_.faults[other].trace;
+      for (const bool at_last : {false, true}) {
+        const Vector2d& tip = at_last ? through.back() : through.front();
+        if ((tip - at).norm() > 2 * lines_.strike) continue;
+        if (!at_last) std::ranges::reverse(through);
+        through = prolonged(through, 3 * lines_.strike);
+        if (!at_last) std::ranges::reverse(through);
+      }
+    }
+  }
+}
+
+void LineMaker::draw_ends(std::size_t f) {
+  for (const bool is_last : {false, true}) draw_end(f, is_last);
+}
+
+void LineMaker::draw_end(std::size_t f, bool is_last) {
+  ModelFault& fault = lines_.faults[f];
+  const Fault& source = structure_.faults[fault.source];
+  const FaultEnd& end = is_last ? source.end : source.begin;
+  LineEnd& kind = is_last ? fault.last_end : fault.first_end;
+  if (!is_last) std::ranges::reverse(fault.trace);
+  const int other = end.kind == EndKind::junction ? model_of(end.other) : -1;
+  kind = LineEnd::rock;
+  if (other >= 0 && lines_.faults[other].source < fault.source) {
+    fault.trace = led_to(fault.trace, lines_.faults[other].trace, cell_);
+    kind = LineEnd::fault;
+  } else if (other >= 0 &&
+             nearest_on_line(lines_.faults[other].trace, fault.trace.back()).distance <
+                 lines_.strike) {
+    fault.trace = led_to(fault.trace, lines_.faults[other].trace, cell_);
+    kind = LineEnd::fault;
+  } else if (end.kind == EndKind::grid_edge) {
+    constexpr double kFlat = 4;  // m beyond the edge for each m of throw: the horizons close there
+    const double beyond = std::max(options_.least_edge_run * cell_, kFlat * std::abs(end.offset));
+    std::optional<Polyline> best;
+    for (const Polyline& outline : lines_.outlines) {
+      const auto led = led_across(fault.trace, closed(outline), cell_, beyond);
+      if (led && (!best || line_length(*led) < line_length(*best))) best = led;
+    }
+    fault.trace = best ? *best : at_tip(fault.trace, f, kind);
+  } else {
+    fault.trace = at_tip(fault.trace, f, kind);
+  }
+  if (!is_last) std::ranges::reverse(fault.trace);
+}
+
+/// Whether a stretch keeps a cell of the mesh and a half from all other lines.
+bool LineMaker::is_clear(const Vector2d& from, const Vector2d& to, std::size_t except) const {
+  const double least = 1.5 * lines_.strike;
+  const auto keeps_away = [&](const Polyline& line) {
+    if (crossing_beyond({from, to}, line, 0)) return false;
+    for (const Vector2d& end : {from, to, Vector2d((from + to) / 2)}) {
+      if (nearest_on_line(line, end).distance < least) return false;
+    }
+    return true;
+  };
+  for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
+    if (f != except && !keeps_away(lines_.faults[f].trace)) return false;
+  }
+  return std::ranges::all_of(lines_.outlines,
+                             [&](const Polyline& line) { return keeps_away(closed(line)); });
+}
+
+/// A trace that goes on at its tip, as far as there is room; where there is none it is cut back.
+Polyline LineMaker::at_tip(const Polyline& trace, std::size_t f, LineEnd& kind) const {
+  const double length = line_length(trace);
+  for (const double share : {1.0, 0.5, 0.25, 0.0}) {
+    const Polyline longer = prolonged(trace, share * options_.tip_reach * cell_);
+    if (is_clear(trace.back(), longer.back(), f)) return longer;
+  }
+  for (const double back : {0.5, 1.0, 2.0, 3.0}) {
+    if (back * cell_ > 0.5 * length) break;
+    const Polyline shorter = cut_at(trace, length - back * cell_);
+    if (is_clear(shorter.back(), shorter.back(), f)) return shorter;
+  }
+  for (std::size_t g = 0; g < f; ++g) {
+    const auto nearest = nearest_on_line(lines_.faults[g].trace, trace.back());
+    if (nearest.distance > cell_) continue;
+    kind = LineEnd::fault;
+    Polyline on = cut_at(trace, std::max(0.5 * length, length - cell_));
+    on.push_back(nearest_on_line(lines_.faults[g].trace, on.back()).point);
+    return on;
+  }
+  return trace;
+}
+
+/// Two lines around each part of the active map, parted where faults are far, and those that go on
+/// from tips.
+void LineMaker::draw_dividers() {
+  lines_.dividers.clear();
+  const auto away = [&](const Vector2d& at) {
+    double least = 1e300;
+    for (const ModelFault& fault : lines_.faults)
+      least = std::min(least, nearest_on_line(fault.trace, at).distance);
+    return least;
+  };
+  for (const ModelFault& fault : lines_.faults) {
+    for (const bool is_last : {false, true}) draw_extension(fault, is_last);
+  }
+  for (std::size_t k = 0; k < lines_.outlines.size(); ++k) {
+    const Polyline ring = closed(lines_.outlines[k]);
+    const Polyline middles = corner_point::middles_of(ring);
+    const auto farthest = [&](const Vector2d* from) {
+      std::size_t best = middles.size();
+      double most = -1;
+      for (std::size_t m = 0; m < middles.size(); ++m) {
+        const double room = std::min(away(middles[m]), (ring[m + 1] - ring[m]).norm());
+        const double here = from == nullptr ? room : std::min(room, (middles[m] - *from).norm());
+        if (here <= most) continue;
+        most = here;
+        best = m;
+      }
+      return best;
+    };
+    const std::size_t one = farthest(nullptr), two = farthest(&middles[one]);
+    const auto part = [&](std::size_t from, std::size_t to) {
+      Polyline line = {middles[from]};
+      for (std::size_t m = from; m != to; m = (m + 1) % middles.size()) line.push_back(ring[m + 1]);
+      line.push_back(middles[to]);
+      return line;
+    };
+    lines_.dividers.push_back({concat("outline", 2 * k + 1), part(one, two)});
+    lines_.dividers.push_back({concat("outline", 2 * k + 2), part(two, one)});
+  }
+}
+
+/// The straight line on from a tip that was prolonged (StructureOptions::extend_faults).
+void LineMaker::draw_extension(const ModelFault& fault, bool is_last) {
+  const Fault& source = structure_.faults[fault.source];
+  const FaultEnd& end = is_last ? source.end : source.begin;
+  if (end.n_extension == 0 || (is_last ? fault.last_end : fault.first_end) != LineEnd::rock) return;
+  const std::size_t n_first = is_last ? static_cast<std::size_t>(source.begin.n_extension) : 0;
+  const auto n = static_cast<std::size_t>(end.n_extension);
+  const corner_point::FaultEdge& last = source.extension[n_first + n - 1];
+  const Vector2d to = grid_.pillars[last.to].at(lines_.reference_z);
+  const Vector2d tip = is_last ? fault.trace.back() : fault.trace.front();
+  if ((to - tip).norm() < 2 * lines_.strike) return;
+  Polyline line = {tip, to};
+  std::optional<Polyline> best;
+  const auto try_line = [&](const Polyline& other) {
+    const auto led = led_across(line, other, cell_, 0);
+    if (led && led->size() >= 2 && (!best || line_length(*led) < line_length(*best))) best = led;
+  };
+  for (const Polyline& outline : lines_.outlines) try_line(closed(outline));
+  for (const ModelFault& other : lines_.faults) {
+    if (other.source != fault.source && nearest_on_line(other.trace, to).distance < cell_)
+      try_line(other.trace);
+  }
+  if (best) lines_.dividers.push_back({"on_from_" + fault.name, *best});
+}
+
+void LineMaker::say_left_out() {
+  for (const auto& [source, why] : left_out_) {
+    remarks_.push_back({RemarkKind::left_out,
+                        concat("fault ", source + 1, " is not in the model: ", why),
+                        "--least-offset, --strike"});
+  }
+}
+
+}  // namespace
+
+Polyline ModelFault::at(double z, double reference_z) const {
+  const double to_right = lean * (reference_z - std::clamp(z, bottom, top));
+  std::vector<Vector2d> across;  // of pieces, to the right
+  for (std::size_t k = 0; k + 1 < trace.size(); ++k) {
+    const Vector2d along = (trace[k + 1] - trace[k]).normalized();
+    across.emplace_back(along.y(), -along.x());
+  }
+  Polyline line;
+  for (std::size_t k = 0; k < trace.size(); ++k) {
+    const Vector2d &before = across[k == 0 ? 0 : k - 1],
+                   &after = across[std::min(k, across.size() - 1)];
+    const Vector2d mean = (before + after).normalized();
+    line.emplace_back(trace[k] + to_right / mean.dot(after) * mean);
+  }
+  return line;
+}
+
+ModelLines model_lines(const CornerPointGrid& grid, const GridStructure& structure,
+                       const LineOptions& options, Remarks& remarks) {
+  return LineMaker(grid, structure, options, remarks).make();
+}
+
+}  // namespace faultsim::grid_scene

@@ -1,0 +1,320 @@
+#include "simulator/grid_scene/surface_points.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <tuple>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
+#include "simulator/corner_point/fault_description.h"
+#include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/fault_columns.h"
+
+namespace faultsim::grid_scene {
+namespace {
+
+using corner_point::ColumnMap;
+using corner_point::CornerPlace;
+using corner_point::CornerPointGrid;
+using corner_point::RemarkKind;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr std::array<CornerPlace, 4> kFour = {
+    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
+
+/// Columns around a pillar that no fault of the model separates there.
+struct Group {
+  int pillar = -1;
+  std::vector<int> columns;
+  std::vector<int> side;       ///< per fault: 1 left, −1 right, 0 neither.
+  std::vector<char> is_on_it;  ///< per fault: the pillar is one of its, and the group has a side.
+};
+
+/// Depth and slope of a surface in a group of columns.
+struct Level {
+  double z = 0;
+  Vector2d slope = {0, 0};
+};
+
+class SurfaceMaker {
+ public:
+  SurfaceMaker(const CornerPointGrid& grid, const corner_point::GridStructure& structure,
+               const ModelLines& lines, const SurfaceOptions& options, Remarks& remarks)
+      : grid_(grid),
+        structure_(structure),
+        lines_(lines),
+        options_(options),
+        remarks_(remarks),
+        map_(grid),
+        least_(options.least_layer > 0 ? options.least_layer : 0.2 * lines.strike) {
+    find_groups();
+  }
+
+  std::vector<ModelSurface> make();
+
+ private:
+  void find_groups();
+  void add_groups(int pillar, const std::set<int>& barriers,
+                  const std::vector<std::vector<int>>& sides);
+  Level in_column(int column, int pillar, int layer) const;
+  Level in_group(const Group& group, int layer) const;
+  std::vector<int> chosen_layers();
+  bool is_thick_enough(int above, int below) const;
+  std::vector<Vector3d> points_of(int layer);
+  std::optional<Vector3d> placed(const Group& group, Level level);
+  void add_tips(std::vector<Vector3d>& points) const;
+  double thinnest() const;
+
+  const CornerPointGrid& grid_;
+  const corner_point::GridStructure& structure_;
+  const ModelLines& lines_;
+  const SurfaceOptions& options_;
+  Remarks& remarks_;
+  ColumnMap map_;
+  double least_;
+  std::vector<Group> groups_;
+  std::set<std::tuple<std::size_t, int, long>> taken_;  ///< fault, side, place along it.
+  int n_left_out_ = 0;
+};
+
+void SurfaceMaker::find_groups() {
+  const std::set<int> barriers = edges_of_faults(map_, structure_, lines_);
+  const std::vector<std::vector<int>> sides = sides_of_columns(map_, structure_, lines_);
+  for (int pillar = 0; pillar < map_.n_pillars(); ++pillar) add_groups(pillar, barriers, sides);
+  for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
+    const std::vector<int> own =
+        corner_point::pillars_of(structure_.faults[lines_.faults[f].source]);
+    const std::set<int> pillars(own.begin(), own.end());
+    for (Group& group : groups_)
+      group.is_on_it.push_back(group.side[f] != 0 && pillars.contains(group.pillar) ? 1 : 0);
+  }
+}
+
+/// One side of all columns, or none.
+int common_side(const std::vector<int>& side, const std::vector<int>& columns) {
+  const int first = side[columns.front()];
+  const bool all = std::ranges::all_of(columns, [&](int c) { return side[c] == first; });
+  return all ? first : 0;
+}
+
+void SurfaceMaker::add_groups(int pillar, const std::set<int>& barriers,
+                              const std::vector<std::vector<int>>& sides) {
+  const std::array<int, 4> around = map_.columns_around(pillar);
+  std::array<int, 4> set = {0, 1, 2, 3};
+  for (int c = 0; c < 4; ++c) {
+    const int next = (c + 1) % 4;
+    if (!map_.is_active(around[c]) || !map_.is_active(around[next])) continue;
+    if (barriers.contains(map_.edge_between_columns(around[c], around[next]))) continue;
+    std::ranges::replace(set, std::max(set[c], set[next]), std::min(set[c], set[next]));
+  }
+  for (int s = 0; s < 4; ++s) {
+    Group group{.pillar = pillar, .columns = {}, .side = {}, .is_on_it = {}};
+    for (int c = 0; c < 4; ++c) {
+      if (set[c] == s && map_.is_active(around[c])) group.columns.push_back(around[c]);
+    }
+    if (group.columns.empty()) continue;
+    for (const std::vector<int>& side : sides)
+      group.side.push_back(common_side(side, group.columns));
+    groups_.push_back(std::move(group));
+  }
+}
+
+/// A surface in one column: at the pillar, and the plane next to its four corners.
+Level SurfaceMaker::in_column(int column, int pillar, int layer) const {
+  const int top = map_.top_layer(column), base = map_.base_layer(column);
+  const auto corner_z = [&](CornerPlace corner) {
+    const double highest = grid_.z(column, top, corner);
+    if (layer < 0) return highest;
+    const CornerPlace below{corner.right, corner.back, true};
+    const double lowest = grid_.z(column, base, below);
+    if (layer >= grid_.size[2]) return lowest;
+    return std::clamp(grid_.z(column, layer, corner), lowest, highest);
+  };
+  Eigen::Matrix<double, 4, 3> matrix;
+  Eigen::Vector4d right;
+  for (int c = 0; c < 4; ++c) {
+    const double z = corner_z(kFour[static_cast<std::size_t>(c)]);
+    const Vector2d at =
+        grid_.pillars[grid_.pillar_of(column, kFour[static_cast<std::size_t>(c)])].at(z);
+    matrix.row(c) << at.x(), at.y(), 1;
+    right[c] = z;
+  }
+  const Eigen::RowVector3d middle = matrix.colwise().mean();
+  matrix.leftCols<2>().rowwise() -= middle.head<2>();
+  const Eigen::Vector3d plane = matrix.colPivHouseholderQr().solve(right);
+  return {corner_z(map_.corner_at(column, pillar)), plane.head<2>()};
+}
+
+Level SurfaceMaker::in_group(const Group& group, int layer) const {
+  Level mean;
+  const auto n = static_cast<double>(group.columns.size());
+  for (const int column : group.columns) {
+    const Level one = in_column(column, group.pillar, layer);
+    mean.z += one.z / n;
+    mean.slope += one.slope / n;
+  }
+  return mean;
+}
+
+double SurfaceMaker::thinnest() const {
+  double least = 1e300;
+  for (const Group& group : groups_)
+    least = std::min(least, in_group(group, -1).z - in_group(group, grid_.size[2]).z);
+  return least;
+}
+
+bool SurfaceMaker::is_thick_enough(int above, int below) const {
+  return std::ranges::all_of(groups_, [&](const Group& group) {
+    return in_group(group, above).z - in_group(group, below).z >= least_;
+  });
+}
+
+/// Tops of layers from the reservoir's top (−1) to its base (n_k).
+std::vector<int> SurfaceMaker::chosen_layers() {
+  const int n = grid_.size[2];
+  std::vector<int> chosen = {-1}, thin;
+  for (int k = options_.every; options_.every > 0 && k < n; k += options_.every) {
+    if (is_thick_enough(chosen.back(), k) && is_thick_enough(k, n)) {
+      chosen.push_back(k);
+    } else {
+      thin.push_back(k + 1);
+    }
+  }
+  if (!thin.empty())
+    remarks_.push_back({RemarkKind::left_out,
+                        "the tops of layers " + joined(thin, ", ") +
+                            formatted(" of the grid: less than %.3g m from another surface of the "
+                                      "model somewhere",
+                                      least_),
+                        "--least-layer"});
+  chosen.push_back(n);
+  return chosen;
+}
+
+/// Where a group's point lies, or none: the model's fault would put it on the wrong side.
+std::optional<Vector3d> SurfaceMaker::placed(const Group& group, Level level) {
+  Vector2d at = grid_.pillars[group.pillar].at(level.z);
+  constexpr int kRounds = 4;  // of a pillar on several faults
+  for (int round = 0; round < kRounds; ++round) {
+    bool is_right = true;
+    for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
+      if (group.side[f] == 0) continue;
+      const Polyline line = lines_.faults[f].at(level.z, lines_.reference_z);
+      const corner_point::PlaceOnLine on = corner_point::nearest_on_line(line, at);
+      const bool is_beyond = on.along == 0 || on.along >= corner_point::line_length(line);
+      if (is_beyond) continue;
+      const Vector2d along = (line[on.piece + 1] - line[on.piece]).normalized();
+      const double to_side =
+          group.side[f] * corner_point::cross_product(along, at - line[on.piece]);
+      const bool must_move = group.is_on_it[f] != 0 && round == 0;
+      if (!must_move && to_side >= 0.999 * options_.beside_fault) continue;
+      if (group.is_on_it[f] == 0) return std::nullopt;
+      is_right = false;
+      const Vector2d to =
+          on.point + group.side[f] * options_.beside_fault * Vector2d(-along.y(), along.x());
+      level.z += level.slope.dot(to - at);
+      at = to;
+    }
+    if (is_right) return Vector3d(at.x(), at.y(), level.z);
+  }
+  return std::nullopt;
+}
+
+/// Beyond the active map a fault ends in the rock: there both sides have one depth.
+void SurfaceMaker::add_tips(std::vector<Vector3d>& points) const {
+  std::vector<Vector3d> tips;
+  for (const ModelFault& fault : lines_.faults) {
+    const corner_point::Fault& source = structure_.faults[fault.source];
+    for (const bool is_last : {false, true}) {
+      const auto& end = is_last ? source.end : source.begin;
+      if (end.kind != corner_point::EndKind::grid_edge) continue;
+      const Vector2d tip = is_last ? fault.trace.back() : fault.trace.front();
+      std::array<double, 2> nearest = {1e300, 1e300}, z = {0, 0};
+      for (const Vector3d& point : points) {
+        const auto on = corner_point::nearest_on_line(fault.trace, point.head<2>());
+        const Vector2d along = fault.trace[on.piece + 1] - fault.trace[on.piece];
+        const std::size_t side =
+            corner_point::cross_product(along, point.head<2>() - fault.trace[on.piece]) > 0 ? 0 : 1;
+        const double away = (point.head<2>() - tip).norm();
+        if (away >= nearest[side]) continue;
+        nearest[side] = away;
+        z[side] = point.z();
+      }
+      const double mean = (z[0] + z[1]) / 2;
+      const Polyline line = fault.at(mean, lines_.reference_z);
+      const Vector2d at = is_last ? line.back() : line.front();
+      tips.emplace_back(at.x(), at.y(), mean);
+    }
+  }
+  points.insert(points.end(), tips.begin(), tips.end());
+}
+
+std::vector<Vector3d> SurfaceMaker::points_of(int layer) {
+  std::vector<Vector3d> points;
+  taken_.clear();
+  for (const Group& group : groups_) {
+    Level level = in_group(group, layer);
+    if (layer >= grid_.size[2]) level.z = std::min(level.z, in_group(group, -1).z - least_);
+    const std::optional<Vector3d> point = placed(group, level);
+    if (!point) {
+      n_left_out_ += 1;
+      continue;
+    }
+    bool is_there = false;
+    for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
+      if (group.is_on_it[f] == 0) continue;
+      const double along =
+          corner_point::nearest_on_line(lines_.faults[f].trace, point->head<2>()).along;
+      constexpr double kSame = 5;  // m
+      is_there |= !taken_.emplace(f, group.side[f], std::lround(along / kSame)).second;
+    }
+    if (!is_there) points.push_back(*point);
+  }
+  add_tips(points);
+  return points;
+}
+
+std::vector<ModelSurface> SurfaceMaker::make() {
+  const double thin = thinnest();
+  if (thin < least_)
+    remarks_.push_back(
+        {RemarkKind::warning,
+         formatted("the reservoir is %.3g m thick at its thinnest: its base lies deeper in the "
+                   "model wherever less than %.3g m would be left, and pressures of the grid are "
+                   "spread over that",
+                   std::max(0.0, thin), least_),
+         "--least-layer"});
+  std::vector<ModelSurface> surfaces;
+  const std::vector<int> layers = chosen_layers();
+  for (std::size_t s = 0; s < layers.size(); ++s) {
+    ModelSurface surface{.name = "", .layer = layers[s], .points = points_of(layers[s])};
+    const bool is_one = layers.size() == 2;
+    surface.name = s + 1 == layers.size() ? "underburden"
+                   : is_one               ? "reservoir"
+                                          : concat("reservoir", s + 1);
+    surfaces.push_back(std::move(surface));
+  }
+  if (n_left_out_ > 0)
+    remarks_.push_back({RemarkKind::left_out,
+                        counted(n_left_out_, "point of a surface", "points of surfaces") +
+                            " that straightened faults would put on the wrong side",
+                        "--straightening"});
+  return surfaces;
+}
+
+}  // namespace
+
+std::vector<ModelSurface> model_surfaces(const CornerPointGrid& grid,
+                                         const corner_point::GridStructure& structure,
+                                         const ModelLines& lines, const SurfaceOptions& options,
+                                         Remarks& remarks) {
+  return SurfaceMaker(grid, structure, lines, options, remarks).make();
+}
+
+}  // namespace faultsim::grid_scene

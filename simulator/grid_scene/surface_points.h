@@ -1,0 +1,33 @@
+#pragma once
+
+#include "simulator/grid_scene/model_lines.h"
+
+namespace faultsim::grid_scene {
+
+/// A surface of the reservoir over the active map, as the CSV of a scene has it.
+struct ModelSurface {
+  std::string name;  ///< of the layer below it.
+  int layer = -1;    ///< k of the grid whose top it is; −1: the reservoir's top; n_k: its base.
+  std::vector<Eigen::Vector3d> points;  ///< m, z up.
+};
+
+struct SurfaceOptions {
+  int every = 0;            ///< also the top of every so many layers of the grid; 0: none.
+  double least_layer = 0;   ///< m, of a layer of the model; 0: a fifth of a cell at the faults.
+  double beside_fault = 1;  ///< m from a trace to the points of its sides.
+};
+
+/// Points of the reservoir's top and base, and of layers between, on either side of the model's
+/// faults by themselves.
+///
+/// A pillar of the grid on a fault has a point for each side of it, on the line of the model's
+/// fault at its depth and a little to its side; its depth goes on there by the slope of its own
+/// columns. Other pillars keep their place; those that the straightened fault would put on the
+/// wrong side are left out. Where the reservoir is thinner than a layer may be, its base lies
+/// deeper; layers of the grid thinner than that are no layers of the model. Said in remarks.
+std::vector<ModelSurface> model_surfaces(const corner_point::CornerPointGrid& grid,
+                                         const corner_point::GridStructure& structure,
+                                         const ModelLines& lines, const SurfaceOptions& options,
+                                         Remarks& remarks);
+
+}  // namespace faultsim::grid_scene

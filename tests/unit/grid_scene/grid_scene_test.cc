@@ -1,0 +1,205 @@
+#include "simulator/grid_scene/grid_scene.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "made_scene.h"
+#include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/line_check.h"
+#include "simulator/grid_scene/mesh_size.h"
+#include "simulator/grid_scene/outline.h"
+
+namespace faultsim::grid_scene {
+namespace {
+
+using corner_point::cross_product;
+using corner_point::MadeGrid;
+using corner_point::nearest_on_line;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+const corner_point::MadeFault kLine{{900, -200}, {2100, 2200}};
+
+TEST(GridScene, DrawsAFaultOnItsLineWithItsDipAndReach) {
+  const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
+  ASSERT_EQ(all.made.lines.faults.size(), 1u);
+  const ModelFault& fault = all.made.lines.faults[0];
+  for (const Vector2d& at : fault.trace) {
+    // The trace is drawn at the reservoir's depth; the line was made where pillars do not lean.
+    const Vector2d before(at.x() - 0.5 * (-2000 - all.made.lines.reference_z), at.y());
+    EXPECT_LT(distance_from_line(kLine, before), 50);
+  }
+  // Right of a trace that goes north-east lies the east, where pillars lean to.
+  const double across = 0.5 * 2400 / std::hypot(1200, 2400);
+  EXPECT_NEAR(fault.lean, across, 0.05);
+  EXPECT_NEAR(std::stod(all.made.scene["faults"][0]["dip_from_vertical"].get<std::string>()),
+              std::atan(across) * 180 / std::numbers::pi, 2);
+  double highest = -1e9, lowest = 1e9;
+  for (const Vector3d& at : all.made.surfaces[0].points) {
+    if (nearest_on_line(fault.trace, at.head<2>()).distance > 120) continue;
+    highest = std::max(highest, at.z());
+  }
+  for (const Vector3d& at : all.made.surfaces[1].points) {
+    if (nearest_on_line(fault.trace, at.head<2>()).distance > 120) continue;
+    lowest = std::min(lowest, at.z());
+  }
+  EXPECT_NEAR(fault.top, highest + 150, 10);
+  EXPECT_NEAR(fault.bottom, lowest - 150, 10);
+}
+
+TEST(GridScene, LetsFaultsEndOutsideOfTheOutlineAndParts) {
+  const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
+  const ModelLines& lines = all.made.lines;
+  ASSERT_EQ(lines.outlines.size(), 1u);
+  const ModelFault& fault = lines.faults[0];
+  for (const Vector2d& tip : {fault.trace.front(), fault.trace.back()}) {
+    EXPECT_FALSE(is_within(lines.outlines, tip));
+    EXPECT_GT(nearest_on_line(closed(lines.outlines[0]), tip).distance, 180);  // 4 m for 1 m throw
+    EXPECT_GT((tip - lines.low).minCoeff(), 4000);
+    EXPECT_GT((lines.high - tip).minCoeff(), 4000);
+  }
+  ASSERT_EQ(all.made.compartments.size(), 2u);
+  for (const ModelCompartment& one : all.made.compartments) {
+    const double side =
+        cross_product(fault.trace.back() - fault.trace.front(), one.inside - fault.trace.front());
+    // The right side lies deeper.
+    const double other = all.structure.compartments[1 - one.source].mean_top;
+    EXPECT_EQ(side > 0, all.structure.compartments[one.source].mean_top > other);
+    EXPECT_TRUE(is_within(lines.outlines, one.inside));
+  }
+  EXPECT_EQ(first_misfit(lines), std::nullopt);
+}
+
+/// Upright pillars: a surface is known wherever it is.
+TEST(GridScene, HasPointsOfBothSidesBesideAFaultWithItsThrow) {
+  const MadeScene all = scene_of(made(grid_of_a_fault(0)));
+  const ModelFault& fault = all.made.lines.faults[0];
+  std::array<int, 2> n = {0, 0};
+  for (const Vector3d& at : all.made.surfaces[0].points) {
+    const auto on = nearest_on_line(fault.trace, at.head<2>());
+    if (on.along == 0 || on.distance > 1.01 || !is_within(all.made.lines.outlines, on.point))
+      continue;
+    const Vector2d along = fault.trace[1] - fault.trace[0];
+    const bool is_right = cross_product(along, at.head<2>() - fault.trace[0]) < 0;
+    EXPECT_NEAR(at.z(), corner_point::made_top(at.head<2>()) - (is_right ? 60 : 0), 0.3);
+    EXPECT_NEAR(on.distance, 1, 0.01);
+    n[is_right ? 0 : 1] += 1;
+  }
+  EXPECT_GT(n[0], 20);
+  EXPECT_GT(n[1], 20);
+}
+
+TEST(GridScene, IsTheSceneOfTheContract) {
+  const GridScene made_scene = scene_of(made(grid_of_a_fault(0.5))).made;
+  const nlohmann::ordered_json& scene = made_scene.scene;
+  EXPECT_EQ(scene["geometry"]["kind"], "horizons");
+  const auto& layers = scene["geometry"]["layers"];
+  ASSERT_EQ(layers.size(), 3u);
+  EXPECT_EQ(layers[0]["top"], "0 m");
+  EXPECT_EQ(layers[1]["top"]["csv"], "field-reservoir.csv");
+  EXPECT_EQ(layers[2]["name"], "underburden");
+  ASSERT_EQ(made_scene.tables.size(), 2u);
+  EXPECT_EQ(made_scene.tables[0].name, "field-reservoir.csv");
+  EXPECT_THAT(made_scene.tables[0].text, testing::StartsWith("x [m],y [m],depth [m]\n"));
+  EXPECT_FALSE(scene["faults"][0].contains("throw"));
+  EXPECT_EQ(scene["geometry"]["compartments"][1]["layers"][0], "reservoir");
+  EXPECT_EQ(scene["stages"][0]["pressure_change"], "-100 bar");
+  EXPECT_TRUE(says(made_scene.remarks, "no reports"));
+  // Rock of 2200 and, half of the reservoir, 2400 kg/m3.
+  const double gradient =
+      std::stod(scene["initial_state"]["vertical_stress_gradient"].get<std::string>());
+  EXPECT_LT(gradient, -21.58);
+  EXPECT_GT(gradient, -22);
+}
+
+TEST(GridScene, TakesPressuresAndDatesOfReports) {
+  FlowField field;
+  field.cells = {{{0, 0, -2010}, {100, 100, -1990}}, {{0, 0, -2110}, {100, 100, -2090}}};
+  field.date = {0, 86400.0 * 365, 86400.0 * 730 + 3600};
+  field.value.resize(2, 3);
+  field.value << 2.2e7, 2e7, 1.8e7, 2.3e7, 2e7, 1.8e7;
+  const GridScene made_scene = scene_of(made(grid_of_a_fault(0.5)), {}, {}, &field).made;
+  const nlohmann::ordered_json& scene = made_scene.scene;
+  EXPECT_EQ(scene["pressure_field"]["file"], "FIELD.EGRID");
+  EXPECT_EQ(scene["stages"][0]["until"], "1972-01-01T01:00:00");
+  EXPECT_EQ(scene["initial_state"]["pressure"], "20 bar");
+}
+
+TEST(GridScene, KeepsThinReservoirsApart) {
+  MadeGrid grid = grid_of_a_fault(0);
+  grid.thickness = {0.5, 0, 1};
+  const MadeScene all = scene_of(made(grid));
+  EXPECT_TRUE(says(all.made.remarks, "the reservoir is 1.5 m thick at its thinnest"));
+  const double least = 0.2 * all.made.lines.strike;
+  const std::vector<Vector3d>&top = all.made.surfaces[0].points,
+        &base = all.made.surfaces[1].points;
+  ASSERT_EQ(top.size(), base.size());
+  for (std::size_t p = 0; p < top.size(); ++p) EXPECT_GE(top[p].z() - base[p].z(), least - 0.1);
+}
+
+TEST(GridScene, HasLayersOfTheGridOnRequest) {
+  GridSceneOptions options;
+  options.surfaces.every = 1;
+  options.surfaces.least_layer = 12;
+  const GridScene made_scene = scene_of(made(grid_of_a_fault(0)), {}, options).made;
+  ASSERT_EQ(made_scene.surfaces.size(), 3u);  // 10 m of the first layer are too few
+  EXPECT_EQ(made_scene.surfaces[1].layer, 2);
+  EXPECT_TRUE(says(made_scene.remarks, "the tops of layers 2 of the grid"));
+  EXPECT_EQ(made_scene.scene["geometry"]["compartments"][0]["layers"].size(), 2u);
+  EXPECT_EQ(made_scene.scene["geometry"]["layers"][2]["material"], "reservoir");
+}
+
+TEST(GridScene, GoesOnFromTipsOnRequest) {
+  MadeGrid grid = grid_of_a_fault(0);
+  grid.faults = {{{1000, -200}, {1500, 1100}, [](double s) { return s < 1 ? 60.0 : 0.0; }}};
+  EXPECT_EQ(scene_of(made(grid)).made.compartments.size(), 1u);
+  const MadeScene all = scene_of(made(grid), {.extend_faults = true});
+  EXPECT_EQ(all.made.compartments.size(), 2u);
+  ASSERT_EQ(all.made.lines.dividers.size(), 3u);
+  EXPECT_EQ(all.made.lines.dividers[0].name, "on_from_F1");
+}
+
+TEST(SceneText, KeepsShortThingsOnALine) {
+  const nlohmann::ordered_json scene = {{"b", 1}, {"a", {{"x", {"1 m", "2 m"}}, {"e", {}}}}};
+  EXPECT_EQ(scene_text(scene),
+            "{\n  \"b\": 1,\n  \"a\": { \"x\": [\"1 m\", \"2 m\"], \"e\": null }\n}\n");
+  nlohmann::ordered_json list;
+  for (int k = 0; k < 30; ++k) list["long"].push_back(1000 + k);
+  EXPECT_THAT(scene_text(list), HasSubstr("\"long\": [\n    1000,\n"));
+  EXPECT_EQ(nlohmann::ordered_json::parse(scene_text(list)), list);
+}
+
+TEST(Outline, IsWithinHalfACellOfTheActiveMap) {
+  MadeGrid grid{.size = {40, 30, 1}, .thickness = {20}};
+  for (int i = 0; i < 40; ++i) {
+    for (int j = 0; j < 30; ++j) {
+      if (std::hypot((i - 20) / 18.0, (j - 15) / 13.0) > 1) grid.inactive.push_back({i, j, -1});
+    }
+  }
+  const corner_point::CornerPointGrid cells = made(grid);
+  const corner_point::ColumnMap map(cells);
+  Remarks remarks;
+  const std::vector<Polyline> outlines = active_outlines(map, 100, -2000, remarks);
+  ASSERT_EQ(outlines.size(), 1u);
+  EXPECT_LT(outlines[0].size(), 40u);
+  double area = 0;
+  for (std::size_t k = 0; k < outlines[0].size(); ++k)
+    area += cross_product(outlines[0][k], outlines[0][(k + 1) % outlines[0].size()]) / 2;
+  const double is = std::numbers::pi * 1800 * 13 * 80;
+  EXPECT_NEAR(area, is, 0.03 * is) << "counter-clockwise";
+  int n_wrong = 0;
+  for (int column = 0; column < cells.n_columns(); ++column) {
+    const auto [i, j] = cells.place(column);
+    const Vector2d middle((i + 0.5) * 100, (j + 0.5) * 80);
+    if (nearest_on_line(closed(outlines[0]), middle).distance < 80) continue;
+    n_wrong += is_within(outlines, middle) != map.is_active(column);
+  }
+  EXPECT_EQ(n_wrong, 0);
+}
+
+}  // namespace
+}  // namespace faultsim::grid_scene

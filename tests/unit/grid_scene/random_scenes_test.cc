@@ -1,0 +1,114 @@
+// Scenes of random grids: lines fit together for the builder of bodies, which makes cells of them,
+// and points lie on the side of the fault that their depth says.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+#include "made_scene.h"
+#include "simulator/common/errors.h"
+#include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/line_check.h"
+#include "simulator/horizons/build_body.h"
+#include "tests/unit/corner_point/random_grid.h"
+
+namespace faultsim::grid_scene {
+namespace {
+
+using corner_point::cross_product;
+using corner_point::MadeGrid;
+using corner_point::nearest_on_line;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// A flat reservoir between the lines of a scene.
+horizons::LayeredBody flat_body(const GridScene& made) {
+  horizons::LayeredBody body = body_of_lines(made.lines);
+  body.horizons = {{"top", horizons::ConstantDepth{made.lines.reference_z + 20}},
+                   {"base", horizons::ConstantDepth{made.lines.reference_z - 40}}};
+  body.layers = {{0}, {1}, {2}};
+  int region = 0;
+  for (const ModelCompartment& one : made.compartments)
+    body.compartments.push_back({one.name, one.inside, {-1, region++, -1}});
+  return body;
+}
+
+TEST(RandomScenes, HaveLinesThatFitAndCompartmentsThatArePartedByThem) {
+  int n_faults = 0, n_drawn = 0, n_built = 0, n_columns = 0, n_parted = 0;
+  constexpr unsigned kGrids = 16;
+  for (unsigned seed = 0; seed < kGrids; ++seed) {
+    GridSceneOptions options;
+    options.lines.n_cells = 60'000;
+    const MadeScene all =
+        scene_of(made(corner_point::RandomGrid(seed).grid()), {}, std::move(options));
+    n_faults += static_cast<int>(all.structure.faults.size());
+    n_drawn += static_cast<int>(all.made.lines.faults.size());
+    n_columns += all.structure.n_active_columns;
+    for (const ModelCompartment& one : all.made.compartments)
+      n_parted += all.structure.compartments[one.source].n_columns;
+    EXPECT_EQ(all.structure.faults.size() - all.made.lines.faults.size(),
+              std::ranges::count_if(all.made.remarks,
+                                    [](const auto& remark) {
+                                      return remark.text.find("is not in the model") !=
+                                             std::string::npos;
+                                    }))
+        << seed;
+    try {
+      const horizons::BuiltBody built = build_body(flat_body(all.made), "scene");
+      n_built += 1;
+      EXPECT_LT(built.mesh.n_cells(), 250'000u) << seed;
+      EXPECT_EQ(built.mesh.faults.size(), all.made.lines.faults.size());
+    } catch (const InputError& error) {
+      std::cout << seed << ": " << error.what() << "\n";
+    }
+  }
+  std::cout << n_faults << " faults, " << n_drawn << " drawn; " << n_built << " built; " << n_parted
+            << " of " << n_columns << " columns in compartments\n";
+  EXPECT_GE(n_built, kGrids * 9 / 10);
+  EXPECT_GE(n_drawn, n_faults * 9 / 10);
+  EXPECT_GE(n_parted, n_columns * 9 / 10);
+}
+
+/// One fault across the grid at any angle, pillars that lean; right is 60 m lower, which tells the
+/// sides apart whatever lines say.
+TEST(RandomScenes, HaveNoPointOnTheWrongSideOfAFault) {
+  int n_near = 0;
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> angle(0, std::numbers::pi), lean(-1, 1);
+    MadeGrid grid{.size = {30, 30, 2}, .thickness = {15, 25}, .faults = {}};
+    grid.lean = {lean(random), lean(random)};
+    const double direction = angle(random);
+    const Vector2d middle(1500, 1200),
+        along(3000 * std::cos(direction), 3000 * std::sin(direction));
+    grid.faults = {{middle - along, middle + along, [](double) { return 60.0; }}};
+    const MadeScene all = scene_of(made(grid));
+    ASSERT_EQ(all.made.lines.faults.size(), 1u) << seed;
+    const ModelFault& fault = all.made.lines.faults[0];
+    for (const ModelSurface& surface : all.made.surfaces) {
+      const double below = surface.layer < 0 ? 0 : 40;
+      // Tips beyond the grid are of both sides.
+      for (std::size_t p = 0; p + 2 < surface.points.size(); ++p) {
+        const Vector3d& at = surface.points[p];
+        const Polyline line = fault.at(at.z(), all.made.lines.reference_z);
+        const auto on = nearest_on_line(line, at.head<2>());
+        if (on.along == 0 || on.along >= corner_point::line_length(line) || on.distance > 300)
+          continue;
+        n_near += 1;
+        const Vector2d pillar = at.head<2>() - grid.lean * (grid.reference - at.z());
+        const bool is_low = at.z() - (corner_point::made_top(pillar) - below) < -30;
+        const Vector2d piece = line[on.piece + 1] - line[on.piece];
+        const bool is_right = cross_product(piece, at.head<2>() - line[on.piece]) < 0;
+        // The fault was made from `from` to `to`; its trace goes from the west.
+        const bool runs_back = piece.dot(along) < 0;
+        EXPECT_EQ(is_low, is_right != runs_back) << seed << ", " << at.transpose();
+        EXPECT_GT(on.distance, 0.99) << seed;
+      }
+    }
+  }
+  EXPECT_GT(n_near, 5000);
+}
+
+}  // namespace
+}  // namespace faultsim::grid_scene
