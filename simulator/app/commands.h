@@ -93,10 +93,26 @@ struct SolverStudyArguments {
   bool json = false;
 };
 
+/// From a flow grid to a scene; lengths as text with their unit, "" = the default.
+struct FromGridArguments {
+  std::filesystem::path grid;           ///< CASE.EGRID.
+  std::filesystem::path init, restart;  ///< beside it; empty = what is there.
+  std::filesystem::path layers;         ///< table of rock; empty = assumed.
+  std::filesystem::path output;         ///< the scene.
+  bool force = false;
+  std::string least_offset, reference_depth, margin, base, overshoot, strike, least_layer;
+  int fewest_edges = 3, every_layer = 0;
+  double straightening = 0.5, tetrahedra = 100'000;
+  bool faults_by_connections = false, no_bridges = false, extend_faults = false;
+  std::string compartments = "faults";  ///< or EQLNUM, FIPNUM.
+};
+
 /// What the outcome of a case is to a shell.
 ExitCode exit_code_of(Outcome outcome);
 
 ExitCode init_command(const std::string& kind, const std::filesystem::path& file);
+/// Writes a scene of a flow grid, its tables, a report and two pictures (grid_scene/grid_scene.h).
+ExitCode init_from_grid_command(const FromGridArguments& arguments);
 ExitCode validate_command(const SceneArguments& arguments);
 ExitCode plan_command(const SceneArguments& arguments);
 ExitCode parameters_command(const SceneArguments& arguments);

@@ -14,6 +14,8 @@ namespace {
 constexpr const char* kFooter =
     "Examples:\n"
     "  faultsim init field my-field.json          write a starter scene\n"
+    "  faultsim init from-grid FIELD.EGRID -o field.json\n"
+    "                                             a scene of your own flow grid\n"
     "  faultsim plan my-field.json                what will be modelled, unknowns, memory, time\n"
     "  faultsim run my-field.json -o out          run it: table, result.json, faults.xmf\n"
     "  faultsim run my-field.json --tier screening --set friction_angle=\"20 deg\"\n"
@@ -54,6 +56,7 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
 /// All arguments of all commands; CLI11 fills them.
 struct Arguments {
   std::string init_kind = "field", init_file, mesh_output;
+  FromGridArguments from_grid;
   SceneArguments scene;
   RunArguments run;
   DiagnoseArguments diagnosed;
@@ -85,15 +88,81 @@ void add_operator(CLI::App* command, OperatorArguments& arguments,
   add_threads(command, arguments.threads, threads_are, "all cores");
 }
 
+void add_recognition(CLI::App* command, FromGridArguments& a) {
+  command->add_option("--least-offset", a.least_offset,
+                      "smaller steps between columns are no fault (default \"20 ft\")");
+  command->add_option("--fewest-edges", a.fewest_edges, "of the grid, of a fault (default 3)")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--straightening", a.straightening,
+                   "cells that traces may leave the grid's edges (default 0.5)")
+      ->check(CLI::Range(0.01, 10.0));
+  command->add_option("--reference-depth", a.reference_depth,
+                      "where traces are drawn (default: the reservoir's top beside faults)");
+  command->add_flag("--faults-by-connections", a.faults_by_connections,
+                    "non-neighbour connections make a fault at smaller steps");
+  command->add_flag("--no-bridges", a.no_bridges, "smaller steps between two tips join nothing");
+  command->add_flag("--extend-faults", a.extend_faults,
+                    "compartments are parted beyond tips, on to the next fault or edge");
+  command
+      ->add_option("--compartments", a.compartments,
+                   "what bounds them: faults (default), EQLNUM, FIPNUM")
+      ->check(CLI::IsMember({"faults", "EQLNUM", "FIPNUM"}));
+}
+
+void add_from_grid(CLI::App* init, FromGridArguments& a, ExitCode& code) {
+  CLI::App* command = init->add_subcommand(
+      "from-grid", "a scene of a flow grid: horizons, faults, compartments, pressures");
+  command->add_option("grid", a.grid, "CASE.EGRID")->required();
+  command->add_option("--init", a.init, "CASE.INIT (default: the one beside the grid)");
+  command->add_option("--restart", a.restart,
+                      "CASE.UNRST or CASE.X0001 (default: those beside the grid)");
+  command->add_option("-o,--output", a.output, "the scene; its tables are written beside it")
+      ->required();
+  command->add_flag("--force", a.force, "replace files that are there");
+  command->add_option("--layers", a.layers,
+                      "CSV of rock: name, top [m], density [kg/m3], youngs_modulus [GPa],\n"
+                      "poisson_ratio, from the surface down; one is called reservoir");
+  command
+      ->add_option("--every-layer", a.every_layer,
+                   "also the top of every so many layers of the grid (default: none)")
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--least-layer", a.least_layer,
+                      "thickness of the model's layers (default: a fifth of a cell at faults)");
+  command->add_option("--overshoot", a.overshoot,
+                      "of faults above and below the reservoir (default \"150 m\")");
+  command->add_option("--margin", a.margin,
+                      "beside the active map (default: twice the depth, 5 km at least)");
+  command->add_option("--base", a.base, "depth of the model (default: twice the reservoir's)");
+  command->add_option("--strike", a.strike,
+                      "size of cells at faults (default: half a cell of the grid, or what "
+                      "--tetrahedra allows)");
+  command->add_option("--tetrahedra", a.tetrahedra, "about how many (default 100000)")
+      ->check(CLI::Range(1e3, 1e8));
+  add_recognition(command, a);
+  command->footer(
+      "Examples:\n"
+      "  faultsim init from-grid FIELD.EGRID -o field.json\n"
+      "  faultsim init from-grid FIELD.EGRID --layers rock.csv --least-offset \"10 m\" -o "
+      "field.json\n"
+      "Everything that was recognised, left out and chosen is printed, each with the option or "
+      "the\n"
+      "key of the scene that changes it; docs/your-field.md goes on from there.");
+  command->callback([&] { code = init_from_grid_command(a); });
+}
+
 void add_init(CLI::App& app, Arguments& a, ExitCode& code) {
-  CLI::App* init = app.add_subcommand("init", "write a starter scene");
+  CLI::App* init = app.add_subcommand("init", "write a starter scene, or one of a flow grid");
   init->add_option("kind", a.init_kind, "field or box")->check(CLI::IsMember({"field", "box"}));
   init->add_option("file", a.init_file, "where to write it (default KIND.json)");
   init->footer(
       "Examples:\n"
       "  faultsim init field my-field.json    two blocks and three faults between layers\n"
-      "  faultsim init box slider.json        a box with patches of fault, for tests of the model");
-  init->callback([&] {
+      "  faultsim init box slider.json        a box with patches of fault, for tests of the model\n"
+      "  faultsim init from-grid FIELD.EGRID -o field.json");
+  add_from_grid(init, a.from_grid, code);
+  init->callback([&, init] {
+    if (!init->get_subcommands().empty()) return;
     code = init_command(a.init_kind, a.init_file.empty() ? a.init_kind + ".json" : a.init_file);
   });
 }

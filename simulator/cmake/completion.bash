@@ -4,8 +4,9 @@ _faultsim_complete() {
   for ((k = 1; k < COMP_CWORD; ++k)); do
     case ${COMP_WORDS[k]} in -*) ;; *) command=${COMP_WORDS[k]}; break ;; esac
   done
-  local help
-  help=$("$program" $command --help 2>/dev/null) || help=""
+  local words=$command help
+  [[ $command == init && ${COMP_WORDS[k + 1]} == from-grid ]] && words="init from-grid"
+  help=$("$program" $words --help 2>/dev/null) || help=""
   case $before in
     --tier) COMPREPLY=($(compgen -W "screening demonstration standard reference custom" -- "$word")); return ;;
     --format) COMPREPLY=($(compgen -W "csv dakota salib" -- "$word")); return ;;
@@ -15,6 +16,8 @@ _faultsim_complete() {
     COMPREPLY=($(compgen -W "$(grep -oE -- '(^| |,)--?[a-zA-Z][a-z-]*' <<<"$help" | tr -d ' ,' | sort -u)" -- "$word"))
   elif [[ -z $command || $command == cache ]]; then
     COMPREPLY=($(compgen -W "$(awk '/^Subcommands:/ { on = 1; next } /^[^ ]/ { on = 0 } on && /^  [a-z]/ { print $1 }' <<<"$help")" -- "$word"))
+  elif [[ $program == *faultsim && $command == init && $COMP_CWORD == 2 ]]; then
+    COMPREPLY=($(compgen -W "field box from-grid" -- "$word"))
   else
     COMPREPLY=($(compgen -f -- "$word"))
   fi

@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <optional>
+
+#include "simulator/app/commands.h"
+#include "simulator/common/input_file.h"
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
+#include "simulator/common/units.h"
+#include "simulator/corner_point/structure_text.h"
+#include "simulator/files/atomic_file.h"
+#include "simulator/files/output_target.h"
+#include "simulator/flow/eclipse_files.h"
+#include "simulator/flow/field_file.h"
+#include "simulator/grid_scene/grid_pictures.h"
+#include "simulator/grid_scene/grid_scene.h"
+
+namespace faultsim {
+namespace {
+
+namespace fs = std::filesystem;
+using corner_point::StructureOptions;
+using grid_scene::GridScene;
+using grid_scene::GridSceneOptions;
+
+constexpr std::size_t kMostTableBytes = 10'000'000;
+
+/// What of the structure's options the command calls otherwise than "--" and their name.
+const std::map<std::string, std::string> kOptionNames = {{"reference_z", "--reference-depth"},
+                                                         {"bridge_gaps", "--no-bridges"}};
+
+std::string option_name(const std::string& member) {
+  const auto known = kOptionNames.find(member);
+  if (known != kOptionNames.end()) return known->second;
+  std::string name = "--" + member;
+  std::ranges::replace(name, '_', '-');
+  return name;
+}
+
+class FromGrid {
+ public:
+  explicit FromGrid(const FromGridArguments& arguments)
+      : arguments_(arguments), files_(eclipse_files(arguments.grid)) {}
+
+  ExitCode run() {
+    take_options();
+    check_files();
+    if (!problems_.empty()) throw InputError("faultsim init from-grid", problems_);
+    corner_point::CornerPointGrid grid = corner_point::read_corner_point_grid(arguments_.grid);
+    corner_point::GridStructure structure = recognise_structure(grid, structure_options_);
+    FieldFile pressures;
+    if (!files_.restarts.empty()) pressures = read_field_file(field_file(), FlowQuantity::pressure);
+    if (!arguments_.layers.empty())
+      options_.layers_text = read_input_or_throw(arguments_.layers.string(), kMostTableBytes);
+    const GridScene made = grid_scene::grid_scene(grid, structure, options_, pressures.field.get());
+    check_targets(made);
+    write(grid, structure, made);
+    return ExitCode::done;
+  }
+
+ private:
+  /// A length of an option, where it was given.
+  std::optional<double> length(const char* option, const std::string& text) {
+    if (text.empty()) return std::nullopt;
+    const ParsedQuantity parsed = parse_quantity(text, Dimension::length);
+    if (!parsed.ok) problems_.push_back({option, 0, parsed.what, parsed.cure});
+    if (parsed.ok && parsed.value <= 0)
+      problems_.push_back(
+          {option, 0, "\"" + text + "\" is not above 0", "write a length, \"20 m\""});
+    return parsed.ok ? std::optional(parsed.value) : std::nullopt;
+  }
+
+  void take_options() {
+    const FromGridArguments& a = arguments_;
+    const auto take = [&](const char* option, const std::string& text, double& into) {
+      if (const std::optional<double> value = length(option, text)) into = *value;
+    };
+    take("--least-offset", a.least_offset, structure_options_.least_offset);
+    structure_options_.negligible_offset =
+        std::min(structure_options_.negligible_offset, structure_options_.least_offset);
+    if (const auto depth = length("--reference-depth", a.reference_depth))
+      structure_options_.reference_z = -*depth;
+    structure_options_.fewest_edges = a.fewest_edges;
+    structure_options_.straightening = a.straightening;
+    structure_options_.faults_by_connections = a.faults_by_connections;
+    structure_options_.bridge_gaps = !a.no_bridges;
+    structure_options_.extend_faults = a.extend_faults;
+    using corner_point::CompartmentRule;
+    structure_options_.compartments = a.compartments == "EQLNUM"
+                                          ? CompartmentRule::equilibrium_regions
+                                      : a.compartments == "FIPNUM" ? CompartmentRule::fluid_regions
+                                                                   : CompartmentRule::faults;
+    take("--margin", a.margin, options_.lines.margin);
+    take("--base", a.base, options_.lines.base_depth);
+    take("--overshoot", a.overshoot, options_.lines.overshoot);
+    take("--strike", a.strike, options_.lines.strike);
+    take("--least-layer", a.least_layer, options_.surfaces.least_layer);
+    options_.lines.n_cells = a.tetrahedra;
+    options_.surfaces.every = a.every_layer;
+    options_.stem = a.output.stem().string();
+    options_.source = files_.grid.filename().string();
+    options_.layers_name = a.layers.string();
+    if (!files_.restarts.empty())
+      options_.field_file = fs::absolute(field_file())
+                                .lexically_proximate(fs::absolute(a.output).parent_path())
+                                .generic_string();
+  }
+
+  /// What names the pressures in the scene: a restart file that was given alone, else the grid.
+  fs::path field_file() const {
+    return arguments_.restart.empty() ? files_.grid : arguments_.restart;
+  }
+
+  void check_files() {
+    for (const auto& [option, given, ending] :
+         {std::tuple{"--init", arguments_.init, std::string(".INIT")},
+          {"--restart", arguments_.restart, std::string("")}}) {
+      if (given.empty()) continue;
+      std::error_code error;
+      if (!fs::is_regular_file(given, error))
+        problems_.push_back({option, 0, given.string() + ": there is no such file", "name a file"});
+      fs::path beside = files_.grid;
+      beside.replace_extension(ending.empty() ? given.extension().string() : ending);
+      if (fs::weakly_canonical(given, error) != fs::weakly_canonical(beside, error))
+        problems_.push_back(
+            {option, 0, given.string() + " is not beside the grid under its name",
+             "put it there as " + beside.string() + ": scenes find files of a case by their name"});
+    }
+    if (!arguments_.restart.empty()) files_.restarts = eclipse_files(arguments_.restart).restarts;
+    if (arguments_.output.extension() != ".json")
+      problems_.push_back({"-o", 0, "\"" + arguments_.output.string() + "\" is no name of a scene",
+                           "let it end in .json"});
+  }
+
+  fs::path beside(const std::string& ending) const {
+    return arguments_.output.parent_path() / (options_.stem + ending);
+  }
+
+  void check_targets(const GridScene& made) {
+    std::vector<fs::path> targets = {arguments_.output, beside("-report.txt"), beside("-map.svg"),
+                                     beside("-section.svg")};
+    for (const grid_scene::SceneTable& table : made.tables)
+      targets.push_back(arguments_.output.parent_path() / table.name);
+    for (const fs::path& target : targets) {
+      std::error_code error;
+      if (!arguments_.force && fs::exists(target, error))
+        problems_.push_back({"-o", 0, target.string() + " exists already",
+                             "choose another name, or --force to replace what is there"});
+    }
+    if (!problems_.empty()) throw InputError("faultsim init from-grid", problems_);
+    std::vector<fs::path> inputs = files_.restarts;
+    inputs.push_back(files_.grid);
+    if (!arguments_.layers.empty()) inputs.push_back(arguments_.layers);
+    for (const fs::path& target : targets)
+      require_writable_file("-o", target,
+                            target == targets.front() ? FileKind::json : FileKind::text, inputs);
+  }
+
+  void write(const corner_point::CornerPointGrid& grid, corner_point::GridStructure& structure,
+             const GridScene& made) const {
+    for (corner_point::StructureRemark& remark : structure.report) {
+      if (!remark.option.empty()) remark.option = option_name(remark.option);
+    }
+    const std::string report = "In the grid\n\n" + structure_text(structure) +
+                               "\nIn the scene\n\n" + corner_point::remarks_text(made.remarks);
+    for (const grid_scene::SceneTable& table : made.tables)
+      write_text(arguments_.output.parent_path() / table.name, table.text);
+    write_text(beside("-report.txt"), report);
+    write_text(beside("-map.svg"), grid_scene::map_picture(structure, made));
+    write_text(beside("-section.svg"), grid_scene::section_picture(grid, structure, made));
+    write_text(arguments_.output, grid_scene::scene_text(made.scene));
+    std::cout << report;
+    std::cerr << "wrote " << arguments_.output.string() << ", " << made.tables.size()
+              << " tables, a report and two pictures beside it\nnext: look at "
+              << beside("-map.svg").string() << ", then faultsim validate "
+              << arguments_.output.string() << "\n";
+  }
+
+  const FromGridArguments& arguments_;
+  EclipseFiles files_;
+  StructureOptions structure_options_;
+  GridSceneOptions options_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+ExitCode init_from_grid_command(const FromGridArguments& arguments) {
+  return FromGrid(arguments).run();
+}
+
+}  // namespace faultsim
