@@ -39,6 +39,10 @@ const std::vector<MetricInfo>& other_metrics() {
        "then, of the region beside the fault there that changed more", true},
       {"activation_pressure_absolute", Dimension::pressure, false,
        "absolute pressure of that region, at activation_depth", true},
+      {"activation_change_before", Dimension::pressure, false,
+       "the change of that region at which it was seen not to slide yet, where that was searched "
+       "within the load step (activation_tolerance)",
+       true},
       {"activation_change_in_fault", Dimension::pressure, false,
        "change of the fluid pressure in the fault there then", true},
       {"opening_step", Dimension::number, false, "first load step in which it is open", true},

@@ -52,6 +52,7 @@ std::map<std::string, MetricColumn> all_columns() {
       {"activation_depth", onset("depth_m", false)},
       {"activation_pressure_change", onset("change_pa", false)},
       {"activation_pressure_absolute", onset("absolute_pa", false)},
+      {"activation_change_before", onset("change_before_pa", false)},
       {"activation_change_in_fault", onset("change_in_fault_pa", false)},
       {"opening_change_in_fault", onset("change_in_fault_pa", true)},
       {"opening_step", {onset("step", true).sql, true, "$.opening_step"}},
@@ -162,7 +163,8 @@ Depends dependence_of(const std::string& metric) {
     add(Depends::on_activation, {"slides"});
     add(Depends::on_every_activation,
         {"activation_step", "activation_depth", "activation_pressure_change",
-         "activation_pressure_absolute", "activation_change_in_fault", "activated_fault"});
+         "activation_pressure_absolute", "activation_change_before", "activation_change_in_fault",
+         "activated_fault"});
     add(Depends::on_any_of_the_case,
         {"unexpected", "unexpected_fault", "n_episodes", "pressure_margin"});
     add(Depends::on_events, {"jumps", "n_events", "event_moment", "event_stress_drop", "moment",

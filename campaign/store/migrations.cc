@@ -17,6 +17,7 @@
 #include "store_18_sql.h"
 #include "store_19_sql.h"
 #include "store_20_sql.h"
+#include "store_21_sql.h"
 #include "store_2_sql.h"
 #include "store_3_sql.h"
 #include "store_4_sql.h"
@@ -138,6 +139,7 @@ const std::vector<Migration>& store_migrations() {
         {19, "2026-11-27 fields of the cases shown first", faultsim::embedded::store_19_sql},
         {20, "2026-11-28 what is assumed of flow results, temperatures",
          faultsim::embedded::store_20_sql},
+        {21, "2026-11-28 onsets within load steps", faultsim::embedded::store_21_sql},
     };
     for (std::size_t k = 0;; ++k) {  // versions are without gaps from 1
       const int version = static_cast<int>(k) + 1;

@@ -326,9 +326,10 @@ struct CaseOnsets {
   struct Onset {
     std::int64_t fault = 0;  ///< id, of Store::faults.
     int step = 0;            ///< the first at whose end it slides.
-    double time = 0;         ///< s, of the end of that step.
+    double time = 0;         ///< s, of the end of that step, or of its bracket (FaultOnset).
     double change = 0;  ///< Pa, Δp there of the side that changed more, or of the fault's fluid.
-    double began = 0;   ///< s, of the end of the step before: it began after that.
+    double began =
+        0;  ///< s, of the end of the step before, or the bracket's start: it began after.
     double change_before = 0;  ///< Pa, Δp then of the region that `change` is of; NaN = not known.
   };
   long position = 0;

@@ -64,6 +64,12 @@ std::string leading_change_sql(const std::string& row) {
                 "), -1), 0) THEN ", plus, " ELSE ", minus, " END, ", row, ".change_in_fault_pa)");
 }
 
+/// Of a load step l behind step b, the time of a load factor; where that is NULL, of step
+/// `else_of`.
+std::string time_in_step_sql(const std::string& factor, const std::string& else_of) {
+  return concat("coalesce(b.time_s + ", factor, " * (l.time_s - b.time_s), ", else_of, ".time_s)");
+}
+
 /// What the region that changes by `change` in a step had changed by in the one before; NaN where
 /// no region does, as that of a place need not.
 double change_before(double change, const std::string& then, const std::string& before) {
@@ -137,9 +143,11 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
                            const std::function<void(const CaseOnsets&)>& visit) const {
   const std::string sql = concat(
       "SELECT cc.position, s.rank_class, coalesce(s.last_step, 0), coalesce(e.time_s, 0),"
-      " o.fault_id, o.step, l.time_s, ",
-      leading_change_sql("o"), ", b.time_s, l.pressure_change_pa, b.pressure_change_pa, ",
-      unresolved_faults_sql(faults(campaign)), " FROM campaign_cases cc", joins(query),
+      " o.fault_id, o.step, ",
+      time_in_step_sql("o.load_factor_after", "l"), ", ", leading_change_sql("o"), ", ",
+      time_in_step_sql("o.load_factor_before", "b"),
+      ", l.pressure_change_pa, b.pressure_change_pa, ", unresolved_faults_sql(faults(campaign)),
+      ", o.change_before_pa FROM campaign_cases cc", joins(query),
       " LEFT JOIN load_steps e ON s.rank_class > 1 AND e.case_id = cc.case_id"
       " AND e.step = s.last_step"
       " LEFT JOIN fault_onsets o ON o.case_id = cc.case_id AND o.stage_id = s.stage_id"
@@ -164,7 +172,8 @@ void Store::for_each_onset(std::int64_t campaign, const TableQuery& query,
     if (const auto fault = rows.get<std::optional<std::int64_t>>(4)) {
       const double change = rows.real(7);
       one.onsets.push_back({*fault, rows.get<int>(5), rows.real(6), change, rows.real(8),
-                            change_before(change, rows.text(9), rows.text(10))});
+                            rows.get<std::optional<double>>(12).value_or(
+                                change_before(change, rows.text(9), rows.text(10)))});
     }
   }
   if (one.position > 0) visit(one);

@@ -88,8 +88,14 @@ std::string onset_text(const CaseResult& result, const char* what, const std::st
   for (const StepResult& step : result.steps) {
     if (step.step == onset.step) stage = step.stage;
   }
-  return formatted("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
-                   stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
+  std::string text =
+      formatted("%s: fault %s from load step %d (%s), %s", what, fault.c_str(), onset.step,
+                stage.c_str(), pressures_text(onset.pressures, onset.depth).c_str());
+  if (onset.change_before)
+    text += formatted(
+        "; searched within the step: between %.2f and %.2f bar", *onset.change_before / 1e5,
+        leading_change(onset.pressures).value_or(onset.pressures.change_in_fault) / 1e5);
+  return text;
 }
 
 /// What slides and opens, what comes unexpectedly, and what depends on the mesh (docs/words.md).

@@ -13,10 +13,16 @@ class ElasticSteps final : public StepSolver {
       : op_(op),
         bulk_(bulk),
         case_loads_(setting.loads),
-        contact_(op, setting.laws, contact_options(setting.scene.numerics), setting.watch),
+        laws_(setting.laws),
+        options_(contact_options(setting.scene.numerics)),
+        watch_(setting.watch),
+        contact_(op, laws_, options_, watch_),
         locked_(Eigen::VectorXd::Zero(op.geometry.n_dofs)) {}
 
   SolvedStep advance(const LoadStep& step, const StepLoads& loads, ContactState& state) override;
+  std::optional<ContactReport> part_of_step(const Eigen::VectorXd& before,
+                                            const Eigen::VectorXd& after,
+                                            ContactState& state) override;
   Eigen::VectorXd observed(const StepLoads& loads, const ContactState& state) const override;
   Eigen::Matrix3Xd displacement(const StepLoads& loads, const ContactState& state) override;
 
@@ -24,7 +30,12 @@ class ElasticSteps final : public StepSolver {
   const FaultOperator& op_;
   CreepLadder* bulk_;
   const CaseLoads& case_loads_;
+  const ContactLaws& laws_;
+  ContactOptions options_;
+  ContactWatch watch_;
   ContactSolver contact_;
+  /// Of parts of steps: what a solver has learnt shows in the last digits of the steps that follow.
+  std::unique_ptr<ContactSolver> of_parts_;
   Eigen::VectorXd locked_;  ///< t_L of the last equilibrium, Pa.
 };
 
@@ -33,6 +44,13 @@ SolvedStep ElasticSteps::advance(const LoadStep&, const StepLoads& loads, Contac
   solved.contact = contact_.solve_step(locked_, loads.locked, state);
   if (in_equilibrium(solved.contact.outcome)) locked_ = loads.locked;
   return solved;
+}
+
+std::optional<ContactReport> ElasticSteps::part_of_step(const Eigen::VectorXd& before,
+                                                        const Eigen::VectorXd& after,
+                                                        ContactState& state) {
+  if (!of_parts_) of_parts_ = std::make_unique<ContactSolver>(op_, laws_, options_, watch_);
+  return of_parts_->solve_step(before, after, state);
 }
 
 Eigen::VectorXd ElasticSteps::observed(const StepLoads& loads, const ContactState& state) const {

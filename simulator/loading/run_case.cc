@@ -8,6 +8,8 @@
 #include "simulator/common/ranges.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/loading/case_contact.h"
+#include "simulator/loading/node_fields.h"
+#include "simulator/loading/onset_search.h"
 #include "simulator/loading/warnings.h"
 #include "simulator/measures/episodes.h"
 #include "simulator/measures/fault_neighbours.h"
@@ -56,8 +58,7 @@ class CaseRun {
                      const std::vector<ContactJump>& jumps);
   void record(const LoadStep& step, const StepLoads& loads, const Eigen::VectorXd& jump_before,
               StepResult& result);
-  void record_creep(StepCreep& creep) const;
-  Eigen::Matrix3Xd per_node(const Eigen::VectorXd& values) const;
+  void narrow_onsets(const OnsetSearch::Step& step);
   FaultFields fields(const StepLoads& loads) const;
   void name_events();
   void note_weakening(const Eigen::VectorXd& traction, bool trial);
@@ -81,34 +82,23 @@ class CaseRun {
   Eigen::VectorXd creep_traction_;  ///< t'_creep of the last step, n_dofs, Pa; empty without creep.
   double last_time_ = 0;            ///< s, of the last step.
   const LoadStep* at_ = nullptr;    ///< the step being solved.
+  bool searches_ = false;           ///< parts of it are, again.
 };
 
 ContactWatch CaseRun::watch() const {
   ContactWatch watch{.stop = context_.stop, .team = context_.team};
   if (probe_.tried)
-    watch.tried = [this](const SubStepTrace& part) { probe_.tried(at_->step, part); };
+    watch.tried = [this](const SubStepTrace& part) {
+      if (!searches_) probe_.tried(at_->step, part);
+    };
   return watch;
-}
-
-/// A dof vector as components (n, strike, dip) of nodes; removed components are 0.
-Eigen::Matrix3Xd CaseRun::per_node(const Eigen::VectorXd& values) const {
-  Eigen::Matrix3Xd result =
-      Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(op_.geometry.nodes.size()));
-  for (Eigen::Index k = 0; k < result.cols(); ++k) {
-    const auto& dof = op_.geometry.nodes[k].dof;
-    for (Eigen::Index c = 0; c < 3; ++c) {
-      const int d = dof[c];
-      if (d >= 0) result(c, k) = values[d];
-    }
-  }
-  return result;
 }
 
 FaultFields CaseRun::fields(const StepLoads& loads) const {
   const auto n = static_cast<Eigen::Index>(op_.geometry.nodes.size());
   FaultFields f;
-  f.traction = per_node(state_.traction);
-  f.jump = per_node(state_.jump);
+  f.traction = per_node(op_.geometry, state_.traction);
+  f.jump = per_node(op_.geometry, state_.jump);
   f.state.resize(n);
   for (Eigen::Index k = 0; k < n; ++k) {
     f.state[k] = static_cast<int>(state_.state[k]);
@@ -116,7 +106,7 @@ FaultFields CaseRun::fields(const StepLoads& loads) const {
   f.critical_index = nodal_.critical_index;
   f.static_critical_index = nodal_.static_critical_index;
   f.fault_pressure_change = loads.fault_pressure_change;
-  if (creep_traction_.size() > 0) f.creep_traction = per_node(creep_traction_);
+  if (creep_traction_.size() > 0) f.creep_traction = per_node(op_.geometry, creep_traction_);
   return f;
 }
 
@@ -142,19 +132,6 @@ void CaseRun::note_weakening(const Eigen::VectorXd& traction, bool trial) {
   }
 }
 
-void CaseRun::record_creep(StepCreep& creep) const {
-  const Eigen::Matrix3Xd traction = per_node(creep_traction_);
-  for (const OperatorFault& fault : op_.geometry.faults) {
-    FaultCreep sum;
-    for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
-      sum.normal_min = std::min(sum.normal_min, traction(0, k));
-      sum.normal_max = std::max(sum.normal_max, traction(0, k));
-      sum.shear_max = std::max(sum.shear_max, traction.col(k).tail<2>().norm());
-    }
-    creep.faults.push_back(sum);
-  }
-}
-
 void CaseRun::record(const LoadStep& step, const StepLoads& loads,
                      const Eigen::VectorXd& jump_before, StepResult& result) {
   meter_.evaluate(state_, nodal_);
@@ -171,7 +148,7 @@ void CaseRun::record(const LoadStep& step, const StepLoads& loads,
     const Eigen::VectorXd u = solver_->observed(loads, state_);
     result.observed.assign(u.begin(), u.end());
   }
-  if (result.creep) record_creep(*result.creep);
+  if (result.creep) result.creep->faults = creep_of_faults(op_.geometry, creep_traction_);
   if (result.n_slip > 0) note_weakening(state_.traction, false);
   const auto first = std::ranges::find(result_.events, step.step, &SlipEvent::step);
   const std::span<const SlipEvent> events(first, result_.events.end());
@@ -203,6 +180,14 @@ void CaseRun::record_events(const LoadStep& step, const StepLoads* before, const
   }
 }
 
+/// Where in the step the faults begin to slide that it is the first of.
+void CaseRun::narrow_onsets(const OnsetSearch::Step& step) {
+  const OnsetSearch search(scene_.numerics.activation_tolerance, meter_, neighbours_, *solver_);
+  searches_ = true;
+  search.narrow(step, whole_, *stage_);
+  searches_ = false;
+}
+
 /// Gives the probe what was accepted. @param step  with the state before.
 void CaseRun::show(const StepLoads* before, const StepLoads& loads, const SolvedStep& solved,
                    const StepResult& result, AcceptedStep& step) const {
@@ -228,7 +213,8 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.temperature_change = loads.temperature_change;
   const Eigen::VectorXd jump_before = state_.jump;
   AcceptedStep accepted;
-  if (probe_.accepted) accepted.before = state_;
+  const bool searches = scene_.numerics.activation_tolerance > 0 && before != nullptr;
+  if (probe_.accepted || searches) accepted.before = state_;
   SolvedStep solved = solver_->advance(step, loads, state_);
   const ContactReport& report = solved.contact;
   result.creep = std::move(solved.creep);
@@ -256,6 +242,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   }
   last_time_ = step.time;
   result_.steps.push_back(std::move(result));
+  if (good && searches) narrow_onsets({*before, loads, accepted.before});
   return good;
 }
 

@@ -35,6 +35,15 @@ class StepSolver {
   /// `loads`, which are linear in between. Unless in equilibrium, `state` is left as it was and so
   /// is what is remembered. Throws Interrupted when the watch says so.
   virtual SolvedStep advance(const LoadStep& step, const StepLoads& loads, ContactState& state) = 0;
+  /// The equilibrium under `after`, from one of the same case under `before`, both of locked
+  /// tractions within a load step; nothing is remembered, and unless in equilibrium `state` is left
+  /// as it was. None where the rock remembers more than its loads, or there is no such way.
+  virtual std::optional<ContactReport> part_of_step(const Eigen::VectorXd& before,
+                                                    const Eigen::VectorXd& after,
+                                                    ContactState& state) {
+    static_cast<void>(before), static_cast<void>(after), static_cast<void>(state);
+    return std::nullopt;
+  }
   /// The operator's observation rows in the last equilibrium, m (n_rows).
   virtual Eigen::VectorXd observed(const StepLoads& loads, const ContactState& state) const = 0;
   /// Displacement of all mesh nodes there, 3 x n_nodes, m. @pre the bulk was kept for it.

@@ -71,13 +71,17 @@ void StageSummary::add(const StepResult& step, const FaultMeter& meter,
     const double depth = neighbours.depth(node);
     return FaultOnset{step.step, depth, neighbours.at(node, depth, now)};
   };
+  began_.clear();
   double area = 0, slipping = 0, open = 0, activated_area = 0, moment = 0, potency = 0;
   for (std::size_t f = 0; f < step.faults.size(); ++f) {
     const FaultMetrics& fault = step.faults[f];
     const Activation slip = meter.activation(static_cast<int>(f), nodal, state, reference_);
     FaultStageMetrics& own = m.faults[f];
     own.fault = fault_names[f];
-    if (slip.activated && !own.activated) own.activation = onset_at(slip.place);
+    if (slip.activated && !own.activated) {
+      own.activation = onset_at(slip.place);
+      began_.push_back({static_cast<int>(f), slip.place});
+    }
     if (fault.open_area > 0 && !own.opens) {
       own.opening = onset_at(neighbours.widest_gap(static_cast<int>(f), state.jump, state.state));
     }

@@ -23,6 +23,17 @@ class StageSummary {
   void add(const StepResult& step, const FaultMeter& meter, const FaultNeighbours& neighbours,
            const NodalState& nodal, const ContactState& state, const PressureChanges& now,
            const std::vector<std::string>& fault_names, std::span<const SlipEvent> events);
+  /// A fault that began to slide in the step added last, and its node of largest slip then.
+  struct Began {
+    int fault = 0, place = -1;
+  };
+  const std::vector<Began>& began() const { return began_; }
+  /// The onset of such a fault.
+  FaultOnset& onset(const Began& one) {
+    return *metrics_.faults[static_cast<std::size_t>(one.fault)].activation;
+  }
+  /// The jump that slip of the stage counts from; empty = zero.
+  const Eigen::VectorXd& reference() const { return reference_; }
   StageMetrics finish();
 
  private:
@@ -33,6 +44,7 @@ class StageSummary {
   Eigen::VectorXd reference_;
   bool whole_;
   bool plane_strain_;
+  std::vector<Began> began_;
   std::vector<char> surely_, doubtful_;  ///< per fault: activated for certain, in doubt, in a step.
 };
 

@@ -175,7 +175,13 @@ std::optional<double> leading_absolute(const SidePressures& sides);
 struct FaultOnset {
   int step = 0;
   double depth = 0;         ///< m, where it is largest then; datum of the absolute pressures.
-  SidePressures pressures;  ///< at the end of the step.
+  SidePressures pressures;  ///< at the end of the step; with a bracket, at its end.
+  /// The bracket (Numerics::activation_tolerance), by load factors of the step: it was seen not to
+  /// slide yet at the one, and to slide at the other.
+  std::optional<double> load_before = {}, load_after = {};
+  /// Pa, Δp at load_before of the side that leading_change() is of; of the fault's fluid where no
+  /// region touches it.
+  std::optional<double> change_before = {};
 
   bool operator==(const FaultOnset&) const = default;  ///< the very same numbers.
 };

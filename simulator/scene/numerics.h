@@ -69,6 +69,8 @@ void for_each_key(Of<SurfaceRequest> auto& s, auto&& visit) {
 struct Numerics {
   double slip_tolerance = 1e-4;      ///< m, of `activated`.
   double activation_length = 40;     ///< m, of `activated` and χ̄.
+  double activation_tolerance = 0;   ///< Pa, to which a first sliding is located in its load step;
+                                     ///< 0 = it counts as at the step's end.
   double traction_tolerance = 1e-8;  ///< relative to the local traction level.
   int max_newton_iterations = 30;
   int max_active_set_passes = 100;
@@ -95,6 +97,8 @@ struct Numerics {
 void for_each_key(Of<Numerics> auto& n, auto&& visit) {
   visit({"slip_tolerance"}, n.slip_tolerance);
   visit({"activation_length"}, n.activation_length);
+  visit({"activation_tolerance", unless(n.activation_tolerance > 0, kSilent)},
+        n.activation_tolerance);
   visit({"traction_tolerance"}, n.traction_tolerance);
   visit({"max_newton_iterations"}, n.max_newton_iterations);
   visit({"max_active_set_passes"}, n.max_active_set_passes);

@@ -132,7 +132,7 @@ inline faultsim::CaseResult made_up_result_with_events(double strength) {
   jumping.opens = true;
   jumping.n_events = 2;
   jumping.event_magnitude = number();
-  jumping.opening = faultsim::FaultOnset{3, number(), pressures()};
+  jumping.opening = faultsim::FaultOnset{3, number(), pressures(), 0.25, 0.75, -number()};
   for (faultsim::StepResult& step : result.steps) {
     step.creep = faultsim::StepCreep{static_cast<int>(number()), number(), false, {}};
     for (std::size_t f = 0; f < step.faults.size(); ++f) {

@@ -170,6 +170,9 @@ TEST_F(Approximation, StandsBesideTheMeasuresInTheViews) {
 constexpr const char* kBack =
     "DROP VIEW ranking; DROP VIEW stage_ranking; DROP VIEW fault_ranking;"
     "CREATE VIEW ranking AS SELECT case_id FROM case_metrics;"
+    "ALTER TABLE fault_onsets DROP COLUMN load_factor_before;"
+    "ALTER TABLE fault_onsets DROP COLUMN load_factor_after;"
+    "ALTER TABLE fault_onsets DROP COLUMN change_before_pa;"
     "DROP TABLE case_surfaces; ALTER TABLE case_metrics DROP COLUMN field_coverage;"
     "ALTER TABLE case_metrics DROP COLUMN field_assumed;"
     "ALTER TABLE load_steps DROP COLUMN temperature_change_k;"
