@@ -22,6 +22,9 @@ void collect_designs(const json& design, std::vector<json>& designs) {
   for (const json& one : design.at("designs")) collect_designs(one, designs);
 }
 
+// What derived_parameters() says.
+constexpr char kDerived = 1, kName = 2;
+
 /// Which rows and parameters a sample has.
 enum class Keep {
   what_tells,  ///< full histories, and parameters that vary.
@@ -56,7 +59,7 @@ class SampleReader {
       sample_.y[m].push_back(row.complete() ? number_of(row.metrics[m]) : std::nan(""));
   }
 
-  /// Without parameters that follow from others.
+  /// Without parameters that follow from others, and names.
   Sample take(const std::vector<char>& derived) {
     for (std::size_t k = sample_.x.size(); k-- > 0;) {
       const std::vector<double>& values = sample_.x[k];
@@ -64,7 +67,8 @@ class SampleReader {
                            return value != values.front();
                          });
       if (tells && derived[k] == 0) continue;
-      if (tells) sample_.derived.insert(sample_.derived.begin(), sample_.parameters[k].name);
+      if (tells && derived[k] == kDerived)
+        sample_.derived.insert(sample_.derived.begin(), sample_.parameters[k].name);
       sample_.x.erase(sample_.x.begin() + static_cast<long>(k));
       sample_.parameters.erase(sample_.parameters.begin() + static_cast<long>(k));
     }
@@ -91,9 +95,18 @@ std::vector<char> derived_parameters(const std::vector<json>& designs,
   std::set<std::string> chosen = {"group"};
   for (const json& design : designs)
     for (const json& one : design.value("parameters", json::array())) chosen.insert(one.at("name"));
-  return mapped(campaign.parameters, [&](const StoredParameter& one) {
-    return static_cast<char>(!chosen.contains(one.name));
+  std::set<std::string> names;
+  for (const json& design : designs)
+    if (design.contains("names")) names.insert(design.at("names"));
+  return mapped(campaign.parameters, [&](const StoredParameter& one) -> char {
+    return names.contains(one.name) ? kName : chosen.contains(one.name) ? 0 : kDerived;
   });
+}
+
+std::string names_parameter(const Store& store, const CampaignInfo& campaign) {
+  for (const json& design : designs_of(store, campaign))
+    if (design.contains("names")) return design.at("names");
+  return "";
 }
 
 std::string derived_note(const std::vector<std::string>& names) {
@@ -117,7 +130,9 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
   sampling.approximation = approximation_note(store, campaign);
   sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol", "samples"});
   sampling.is_factorial = all_are({"grid"});
-  if (all_are({"samples"})) {
+  if (all_are({"places"})) {
+    sampling.remark = "Places are no sample: shares are of these places, no probabilities.";
+  } else if (all_are({"samples"})) {
     sampling.remark =
         "Samples of a file, taken to be independent: of a correlated chain intervals are too "
         "narrow.";

@@ -71,10 +71,13 @@ Sample read_design(const Store& store, const CampaignInfo& campaign, const Selec
 /// The designs of its resolved spec, those within nested ones too.
 std::vector<nlohmann::json> designs_of(const Store& store, const CampaignInfo& campaign);
 
-/// What designs of a campaign choose: by index in its parameters, whether one follows from others
-/// (`derived` of the spec), so that it explains nothing of its own.
+/// What designs of a campaign choose: by index in its parameters, 1 where one follows from others
+/// (`derived` of the spec), so that it explains nothing of its own; 2 where it is the name of a
+/// place, which explains all and nothing.
 std::vector<char> derived_parameters(const std::vector<nlohmann::json>& designs,
                                      const CampaignInfo& campaign);
+/// The parameter that names the cases of a campaign, each a place; "" = they have no names.
+std::string names_parameter(const Store& store, const CampaignInfo& campaign);
 /// "Computed from others, so not told apart from them: throw."; "" where there are none.
 std::string derived_note(const std::vector<std::string>& names);
 

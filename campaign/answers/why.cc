@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "campaign/answers/sample.h"
 #include "campaign/common/names.h"
 #include "campaign/query/parameters.h"
 #include "campaign/query/selection.h"
@@ -37,15 +38,16 @@ double compared_value(const Why& why, const RankedCase& row) {
   return why.compared == "chi_bar" ? m.chi_bar : m.activated_area;
 }
 
-/// The only parameter in which two cases differ; none where they differ in more, in none, or do
-/// not have the same parameters (of another group of designs).
-std::optional<std::size_t> only_difference(const CaseParameters& a, const CaseParameters& b) {
+/// The only parameter but `names` in which two cases differ; none where they differ in more, in
+/// none, or do not have the same parameters (of another group of designs).
+std::optional<std::size_t> only_difference(const CaseParameters& a, const CaseParameters& b,
+                                           int names) {
   if (a.size() != b.size()) return std::nullopt;
   std::optional<std::size_t> found;
   for (std::size_t k = 0; k < a.size(); ++k) {
     if (a[k].index != b[k].index) return std::nullopt;
     const bool same = a[k].si && b[k].si ? *a[k].si == *b[k].si : a[k].text == b[k].text;
-    if (same) continue;
+    if (same || a[k].index == names) continue;
     if (found) return std::nullopt;
     found = k;
   }
@@ -64,7 +66,7 @@ std::vector<Neighbour> neighbours_of(const Why& why) {
   std::vector<std::pair<std::size_t, const RankedCase*>> near;
   std::map<std::size_t, NextValues> next;
   for (const RankedCase& row : why.ranking.rows) {
-    const auto k = only_difference(own, row.parameters);
+    const auto k = only_difference(own, row.parameters, why.names);
     if (!k || row.rank_class > 1) continue;
     // Another group may have other fixed settings, which are not a parameter's doing.
     if (parameters[static_cast<std::size_t>(own[*k].index)].name == "group") continue;
@@ -107,6 +109,10 @@ ParameterSpace space_of(const Why& why) {
       ParameterSpace::Column& column = space.columns[k];
       column.is_words = column.is_words || !one.si;
       const double number = static_cast<double>(words[k].size());
+      if (one.index == why.names) {
+        column.values[r] = 0;  // alike, as far as names go
+        continue;
+      }
       column.values[r] = one.si ? *one.si : words[k].try_emplace(one.text, number).first->second;
     }
   }
@@ -171,6 +177,9 @@ Why explain_rank(const Store& store, const CampaignInfo& campaign, const StoredC
   why.ranking = make_ranking(store, campaign, request);
   why.stored = stored;
   why.row = row_of(why.ranking, stored);
+  const std::string names = names_parameter(store, campaign);
+  for (std::size_t k = 0; k < campaign.parameters.size(); ++k)
+    if (campaign.parameters[k].name == names) why.names = static_cast<int>(k);
   why.metrics = stage_of(stored.result, request.stage);
   why.compared = !why.ranking.by_default          ? why.ranking.request.by
                  : measures_of(why.row).activated ? "activated_area"

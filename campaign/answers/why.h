@@ -43,6 +43,7 @@ struct Why {
   Ranking ranking;  ///< all rows of the selection.
   StoredCase stored;
   RankedCase row;                  ///< of `ranking`.
+  int names = -1;                  ///< index of the parameter that only names cases; -1 = none.
   faultsim::StageMetrics metrics;  ///< of the stage asked for, or the whole history.
   std::string compared;            ///< expression whose changes are listed.
   double value = 0;                ///< of that, SI.

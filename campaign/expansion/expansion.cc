@@ -91,7 +91,8 @@ class Expander {
   void note_drawn(const std::vector<std::string>& names, const Group& group) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "\"" : ", \"") + name + "\"";
-    if (names.empty()) return;
+    const bool are_places = contains(group.designs, DesignKind::places, &Design::kind);
+    if (names.empty() || are_places) return;  // each place is its own
     result_.notes.push_back(
         list + " of " + group.pointer +
         (names.size() == 1 ? " is drawn from a range and changes the operator: each of its values "
@@ -108,7 +109,8 @@ class Expander {
     FamilyFinder families(result_.spec, group, builder, values, families_);
     const long n_rows = count_rows(group);
     // Each line of a file is somebody's own: nothing but checking it tells whether it is sound.
-    const bool has_file = contains(group.designs, DesignKind::samples, &Design::kind);
+    const bool has_file =
+        std::ranges::any_of(group.designs, [](const Design& one) { return is_of_file(one.kind); });
     const bool is_large = n_rows > kRowsCheckedOneByOne && !has_file;
     if (is_large && !check_extremes(group, builder, values)) return;
     const auto relations = is_large ? faultsim::Relations::trusted : faultsim::Relations::checked;
@@ -215,6 +217,7 @@ class Expander {
     const auto [known, is_new] = by_identity_.emplace(one.identity, one.index);
     if (!is_new) {
       ++result_.n_merged;
+      join_names(result_.cases[static_cast<std::size_t>(known->second)], group, read.row);
       if (first_merged_.empty()) {
         first_merged_ = builder.describe(read.row) + " is the same as case " +
                         std::to_string(known->second + 1);
@@ -227,6 +230,27 @@ class Expander {
     one.derived = std::move(read.derived);
     result_.cases.push_back(std::move(one));
     return result_.cases.back().index;
+  }
+
+  /// Places that are the same case have their names together, up to a line of them.
+  void join_names(const Case& one, int group, const Row& row) {
+    if (one.group != group) return;
+    Group& places = result_.spec.groups[static_cast<std::size_t>(group)];
+    for (const Design& design : places.designs) {
+      if (design.kind != DesignKind::places) continue;
+      const auto of = std::ranges::find(places.parameters, design.names, &Parameter::name) -
+                      places.parameters.begin();
+      const auto p = static_cast<std::size_t>(of);
+      std::vector<Choice>& names = places.parameters[p].choices;
+      std::string& all = names[static_cast<std::size_t>(one.choices[p])].text;
+      const std::string& own = names[static_cast<std::size_t>(row[p])].text;
+      constexpr std::size_t kMost = 80;
+      if (all.size() + own.size() < kMost) {
+        all += ", " + own;
+      } else if (!all.ends_with(", …")) {
+        all += ", …";
+      }
+    }
   }
 
   void write_notes() {

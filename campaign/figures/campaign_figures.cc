@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "campaign/answers/sample.h"
 #include "campaign/common/names.h"
 #include "campaign/expansion/expansion.h"
 #include "campaign/query/parameters.h"
@@ -65,13 +66,14 @@ class MapParameter {
   std::vector<CaseParameter> values_;
 };
 
-/// The parameter of that name, or the first but another; none where nobody asked and there is none.
+/// The parameter of that name, or the first but others; none where nobody asked and there is none.
 std::optional<MapParameter> parameter_of(const std::vector<StoredParameter>& parameters,
                                          const std::string& option, const std::string& name,
-                                         const std::string& other) {
+                                         const std::vector<std::string>& others) {
   std::vector names = mapped(parameters, &StoredParameter::name);
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    if (name.empty() ? names[k] != other : names[k] == name) return MapParameter(k, parameters[k]);
+    if (name.empty() ? !contains(others, names[k]) : names[k] == name)
+      return MapParameter(k, parameters[k]);
   }
   if (!name.empty()) require_name(option, "parameter", name, names);
   return std::nullopt;
@@ -100,12 +102,13 @@ void for_each_outcome(const Store& store, const CampaignInfo& campaign, const Vi
 std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
                              const MapRequest& request) {
   const std::vector<StoredParameter>& parameters = campaign.parameters;
-  std::optional x = parameter_of(parameters, "--x", request.x, request.y);
+  const std::string places = names_parameter(store, campaign);
+  std::optional x = parameter_of(parameters, "--x", request.x, {request.y, places});
   if (!x) {
     throw InputError("--x", "the campaign has no parameter that a map could have along its side",
                      "name what varies in the spec's design");
   }
-  std::optional y = parameter_of(parameters, "--y", request.y, x->name());
+  std::optional y = parameter_of(parameters, "--y", request.y, {x->name(), places});
   figure::OutcomeMap map;
   for_each_outcome(store, campaign, [&](const CaseRow& row, CaseClass kind) {
     const CaseParameter* at_x = x->find(row.parameters);

@@ -24,7 +24,7 @@ long double SpecReader::count_values(const std::string& pointer) const {
 SpecReader::CaseCount SpecReader::count_cases(const std::string& design) {
   const auto kind = at(design + "/kind").get<std::string>();
   if (kind == "list") return {static_cast<long double>(at(design + "/cases").size()), "as listed"};
-  if (kind == "samples") {
+  if (kind == "samples" || kind == "places") {
     return {static_cast<long double>(sample_file(design).n_rows),
             "lines of " + at(design + "/file").get<std::string>()};
   }

@@ -49,7 +49,7 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
   std::vector<Parameter> parameters;
   if (design.kind == DesignKind::list) {
     read_list(pointer + "/cases", names, design, parameters);
-  } else if (design.kind == DesignKind::samples) {
+  } else if (is_of_file(design.kind)) {
     read_samples(pointer, names, design, parameters);
   } else {
     for (const auto& [name, place] : members(pointer + "/parameters")) {

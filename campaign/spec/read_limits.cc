@@ -48,8 +48,8 @@ void SpecReader::read_limits(const SceneNames& names, Group& group) {
     return;
   }
   for (const Design& one : group.designs) {
-    if (one.kind != DesignKind::samples) continue;
-    problem("/limits", "limits are searched in rounds, and a file of samples may change meanwhile",
+    if (!is_of_file(one.kind)) continue;
+    problem("/limits", "limits are searched in rounds, and a file may change meanwhile",
             "write the configurations into the spec, as a list");
     return;
   }

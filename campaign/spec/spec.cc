@@ -75,11 +75,12 @@ json parameter_to_json(const Parameter& parameter) {
 json design_to_json(const Design& design) {
   json result = {{"kind", to_string(design.kind)}};
   if (design.kind == DesignKind::list) result["rows"] = design.rows;
-  if (design.kind == DesignKind::samples) {
+  if (is_of_file(design.kind)) {
     result.update({{"file", design.file},
                    {"fingerprint", design.fingerprint},
                    {"samples", design.rows.size()}});
   }
+  if (design.kind == DesignKind::places) result["names"] = design.names;
   if (!is_sampled(design.kind)) return result;
   result["seed"] = design.seed;
   result[design.kind == DesignKind::morris ? "trajectories" : "samples"] = design.n;

@@ -83,15 +83,20 @@ enum class DesignKind {
   latin_hypercube,  ///< n samples; each n-th part of every range has one.
   sobol,    ///< n base samples in blocks A, AB_1 .. AB_D, (BA_1 .. BA_D,) B (Saltelli 2010).
   samples,  ///< the rows of a file, drawn by somebody else.
+  places,   ///< the rows of a file, each a place with a name: no sample of anything.
   morris,   ///< n trajectories of D + 1 rows; in each every parameter moves once, by half the
             ///< levels.
 };
 constexpr auto words(DesignKind) {
-  return std::array{"grid",  "list",    "zip",   "one-at-a-time", "monte-carlo", "latin-hypercube",
-                    "sobol", "samples", "morris"};
+  return std::array{"grid",  "list",    "zip",    "one-at-a-time", "monte-carlo", "latin-hypercube",
+                    "sobol", "samples", "places", "morris"};
 }
 /// True for those whose rows `expand` draws by their seed.
 bool is_sampled(DesignKind kind);
+/// True for those whose rows are the lines of a file.
+constexpr bool is_of_file(DesignKind kind) {
+  return kind == DesignKind::samples || kind == DesignKind::places;
+}
 
 /// The rows of consecutive parameters of a group.
 struct Design {
@@ -112,8 +117,9 @@ struct Design {
   };
   std::optional<Correlated> correlated = std::nullopt;
   std::int64_t seed = 1;
-  std::string file;           ///< samples: its name as given.
-  std::string fingerprint;    ///< samples: of its text.
+  std::string file;           ///< of a file: its name as given.
+  std::string fingerprint;    ///< of a file: of its text.
+  std::string names;          ///< places: the parameter that has their names, a name to each row.
   bool without_base = false;  ///< one_at_a_time: no row of the base case.
 };
 

@@ -97,7 +97,11 @@ class SpecReader {
   void read_list(const std::string& pointer, const SceneNames& names, Design& design,
                  std::vector<Parameter>& parameters);
   /// samples.cc: the samples of a file, each file read once.
+  std::string names_column(const std::string& design) const;
   const SampleFile& sample_file(const std::string& design);
+  Parameter named_rows(const std::string& pointer, const SampleFile& file) const;
+  std::optional<Parameter> given_parameter(const SampleFile::Column& column,
+                                           const std::string& pointer, const SceneNames& names);
   void read_samples(const std::string& pointer, const SceneNames& names, Design& design,
                     std::vector<Parameter>& parameters);
   void read_sampling(const std::string& pointer, Design& design);
@@ -155,7 +159,7 @@ class SpecReader {
   std::unordered_set<std::string> said_;            ///< pointer and text of each.
   std::optional<SceneNames> names_;                 ///< those that names_of gave last.
   Symbols symbols_;                                 ///< of spec_.identifiers.
-  std::map<std::string, SampleFile> sample_files_;  ///< by name as given.
+  std::map<std::string, SampleFile> sample_files_;  ///< by name as given and names_column.
   long double n_cases_ = 0;                         ///< before exclusions.
 };
 

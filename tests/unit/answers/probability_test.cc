@@ -392,6 +392,22 @@ TEST_F(AnswersTest, OfChosenCasesOrderStatisticsWithoutBounds) {
   EXPECT_FALSE(render_json(answer).at("quantiles").at(0).contains("low"));
 }
 
+/// Lines of a file are a sample, unless they are places: of those there are shares alone.
+TEST_F(AnswersTest, PlacesAreNoSample) {
+  design_keys_ = {{"names", "rule"}};
+  submit("places", even(20));
+  record();
+  const Probability found = probability({.condition = "F1.slides"});
+  EXPECT_FALSE(found.sampling.is_random);
+  EXPECT_EQ(found.shares.at(0).counts.n_holds, 10);
+  const std::string text = render_text(to_answer(found), 1000);
+  EXPECT_THAT(text, HasSubstr("Places are no sample: shares are of these places"));
+  EXPECT_THAT(text, Not(HasSubstr("confidence")));
+  EXPECT_EQ(found.shares.at(0).bounds.low, 0.5) << "no sample, no bound";
+  EXPECT_EQ(found.shares.at(0).bounds.high, 0.5);
+  EXPECT_THROW(analyse_sensitivity(*store_, campaign_, {}), InputError);
+}
+
 /// Rows of a design that are one case count as often as they are rows.
 TEST_F(AnswersTest, MergedRowsCountEach) {
   for (long row = 1; row <= 40; ++row) s_.design_rows.push_back({0, row, row <= 31 ? 1 : row - 30});

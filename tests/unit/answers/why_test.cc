@@ -58,6 +58,19 @@ TEST_F(AnswersTest, WhyListsWhatOneParameterAloneChanges) {
   testing::expect_to_fit(answer);
 }
 
+/// Names tell cases apart and explain nothing: `rule` is the name of each.
+TEST_F(AnswersTest, WhyTakesNamesOfPlacesForNoDifference) {
+  design_keys_ = {{"names", "rule"}};
+  submit("places", {{0.8, 100}, {0.6, 100}, {0.8, 200}, {0.7, 300}});
+  record();
+  const Why found = why(1);
+  ASSERT_EQ(found.neighbours.size(), 2u);
+  EXPECT_EQ(found.neighbours[0].parameter, "strength");
+  EXPECT_EQ(found.neighbours[0].row.position, 2) << "which has another name";
+  EXPECT_EQ(found.neighbours[1].parameter, "offset");
+  EXPECT_EQ(found.neighbours[1].row.position, 3);
+}
+
 TEST_F(AnswersTest, WhySaysWhichPlacesTheMeshDoesNotTellApart) {
   submit("list", {{0.30, 1}, {0.31, 1}, {0.32, 1}, {0.2, 1}, {0.1, 1}});
   record();
