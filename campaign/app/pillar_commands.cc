@@ -5,15 +5,16 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "campaign/app/commands.h"
 #include "campaign/common/names.h"
 #include "campaign/pillars/fault_map.h"
+#include "campaign/pillars/map_frames.h"
 #include "campaign/pillars/pillar_campaign.h"
 #include "campaign/render/render.h"
 #include "campaign/spec/pointers.h"
+#include "simulator/common/printable.h"
 #include "simulator/common/units.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"
@@ -70,31 +71,31 @@ std::string name_of(const PillarArguments& arguments) {
 }
 
 std::string refused_csv(const PillarCampaign& campaign) {
-  std::string text = "id,line,what,cure\n";
+  std::string text = "id,line,column,what,cure\n";
   for (const RefusedPillar& one : campaign.refused) {
-    text += csv_field(one.id) + "," + std::to_string(one.line) + "," +
-            csv_field(concat(one.problem.pointer, ": ", one.problem.what)) + "," +
-            csv_field(one.problem.cure) + "\n";
+    for (const faultsim::Problem& problem : one.problems) {
+      text += csv_name(one.id) + "," + std::to_string(one.line) + "," + csv_name(problem.pointer) +
+              "," + csv_name(problem.what) + "," + csv_name(problem.cure) + "\n";
+    }
   }
   return text;
 }
 
-/// Reasons with how many pillars they are of, the most frequent as they come.
+/// Line by line what is wrong, as far as a screen goes.
 std::string refused_text(const PillarCampaign& campaign) {
-  constexpr std::size_t kShown = 10;
-  std::map<std::string, std::pair<std::size_t, const RefusedPillar*>> reasons;
-  for (const RefusedPillar& one : campaign.refused) {
-    auto& [n, first] = reasons[one.problem.pointer];
-    if (n++ == 0) first = &one;
-  }
+  constexpr std::size_t kShown = 40;
   std::string text;
-  std::size_t n_shown = 0;
-  for (const auto& [pointer, reason] : reasons) {
-    if (n_shown++ == kShown) break;
-    text += concat("  ", reason.first, " at ", pointer, ": pillar ", reason.second->id, " (line ",
-                   reason.second->line, "): ", reason.second->problem.what, "; ",
-                   reason.second->problem.cure, "\n");
+  std::size_t n = 0;
+  for (const RefusedPillar& one : campaign.refused) {
+    for (const faultsim::Problem& problem : one.problems) {
+      if (n++ >= kShown) continue;
+      text +=
+          concat("  line ", one.line, ", pillar ", faultsim::printable(one.id),
+                 problem.pointer.empty() ? "" : ", column ", faultsim::printable(problem.pointer),
+                 ": ", problem.what, "; ", problem.cure, "\n");
+    }
   }
+  if (n > kShown) text += concat("  ", n - kShown, " more are in refused.csv\n");
   return text;
 }
 
@@ -143,15 +144,35 @@ struct MapArguments {
   std::filesystem::path places, output;
 };
 
+/// A file for each year beside the collection: "map.pvd", "map_0000.vtu", "map_0001.vtu", ...
+void write_frames(const Store& store, FaultMap map, const std::filesystem::path& collection) {
+  const std::vector<MapFrame> frames = make_map_frames(store, map);
+  if (frames.empty())
+    throw InputError("-o", {{"", 0, "no pillar has a history", "run the campaign first"}});
+  std::vector<FrameFile> files;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    char number[32];
+    std::snprintf(number, sizeof number, "_%04zu.vtu", k);
+    files.push_back({frames[k].year, collection.stem().string() + number});
+    map.properties = frames[k].properties;
+    faultsim::write_text(collection.parent_path() / files.back().name, fault_map_to_vtu(map));
+  }
+  faultsim::write_text(collection, frames_to_pvd(files));
+}
+
 ExitCode map(const StoreArguments& common, const MapArguments& arguments) {
   const std::string kind = arguments.output.extension().string();
-  if (kind != ".csv" && kind != ".vtu" && kind != ".ts")
+  if (kind != ".csv" && kind != ".vtu" && kind != ".ts" && kind != ".pvd")
     throw InputError("-o", concat("\"", kind, "\" is not a kind of map"),
-                     "name a file that ends in .csv, .vtu or .ts");
+                     "name a file that ends in .csv, .vtu, .pvd or .ts");
   faultsim::require_writable_file("-o", arguments.output, faultsim::FileKind::text,
                                   {arguments.places});
   const Store store = Store::open_reader(common.store);
   const FaultMap map = make_fault_map(store, store.campaign(common.campaign), arguments.places);
+  if (kind == ".pvd") {
+    write_frames(store, map, arguments.output);
+    return ExitCode::done;
+  }
   const std::string text = kind == ".csv"   ? fault_map_to_csv(map)
                            : kind == ".vtu" ? fault_map_to_vtu(map)
                                             : fault_map_to_tsurf(map);
@@ -187,18 +208,26 @@ void add_pillars(Program& program) {
   command->footer(
       "Columns: id, fault, x [m], y [m], azimuth [deg], depth [m], offset [m], thickness [m] or\n"
       "thickness_foot [m] and thickness_hanging [m], dip [deg] (from the vertical) or\n"
-      "dip_from_horizontal [deg], and any parameter that `faultsim parameters` lists.\n"
+      "dip_from_horizontal [deg], until (the date at which a pillar's history ends), and any\n"
+      "parameter that `faultsim parameters` lists. A line that is not all there refuses itself\n"
+      "only; all of those are in refused.csv, with line, column and cure.\n"
+      "A pressure_field or temperature_field of the scene is taken where each pillar is.\n"
+      "First sliding pressures are searched within their load steps to 0.1 bar, or to what\n"
+      "/numerics/activation_tolerance of the scene says.\n"
       "Examples:\n"
       "  faultsweep pillars pillars.csv --scene section.json -o pillars\n"
       "  faultsweep submit pillars/campaign.json && faultsweep run pillars\n"
-      "  faultsweep map pillars/places.csv pillars -o map.vtu      for ParaView");
+      "  faultsweep map pillars/places.csv pillars -o map.vtu      for ParaView\n"
+      "  faultsweep map pillars/places.csv pillars -o map.pvd      the same year by year");
 
   auto [map_command, m] = program.add("map", "what became of pillars, on a map", map);
   map_command->add_option("places", m.places, "places.csv of `faultsweep pillars`")->required();
   add_campaign(map_command, program.common);
   map_command
       ->add_option("-o,--output", m.output,
-                   "file: .csv, .vtu (ParaView) or .ts (GOCAD surfaces with properties)")
+                   "file: .csv, .vtu (ParaView), .pvd (ParaView, with a .vtu beside it for each "
+                   "year) or .ts "
+                   "(GOCAD surfaces with properties)")
       ->required();
   map_command->footer("Example: faultsweep map pillars/places.csv pillars -o map.csv");
 }

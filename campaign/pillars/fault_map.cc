@@ -1,21 +1,21 @@
 #include "campaign/pillars/fault_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "campaign/common/names.h"
+#include "campaign/pillars/place_line.h"
 #include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/render/answer.h"
-#include "simulator/common/input_file.h"
-#include "simulator/common/table_reader.h"
+#include "simulator/common/dates.h"
 #include "simulator/common/units.h"
 
 namespace faultsweep {
 
 namespace {
 
-constexpr std::size_t kMostPlacesBytes = 500'000'000;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// A metric of the pillar's fault, in the unit of maps.
@@ -28,6 +28,7 @@ constexpr Mapped kMapped[] = {
     {"activation_resolved", "resolved", "1", 1},
     {"activation_pressure_absolute", "first_sliding_pressure", "bar", 1e5},
     {"activation_pressure_change", "first_sliding_pressure_change", "bar", 1e5},
+    {"activation_change_before", "not_yet_at_pressure_change", "bar", 1e5},
     {"activation_depth", "first_sliding_depth", "m", 1},
     {"chi_bar", "chi_bar", "1", 1},
     {"max_slip", "max_slip", "mm", 1e-3},
@@ -37,55 +38,16 @@ constexpr Mapped kMapped[] = {
     {"event_moment", "largest_event_moment", "N m/m", 1},
 };
 
-/// Fields of a line of CSV, RFC 4180.
-std::vector<std::string> fields_of(std::string_view line) {
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    const char c = line[i];
-    if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back() += line[++i];
-    } else if (c == '"') {
-      quoted = !quoted;
-    } else if (c == ',' && !quoted) {
-      fields.emplace_back();
-    } else if (c != '\r') {
-      fields.back() += c;
-    }
-  }
-  return fields;
-}
-
-double number_in(const std::string& text) { return faultsim::parse_number(text).value_or(kNone); }
-
-struct Places {
-  std::vector<FaultMap::Place> all;
-  std::string section_fault;
-};
-
-Places read_places(const std::filesystem::path& file) {
-  const std::string text = faultsim::read_input_or_throw(file.string(), kMostPlacesBytes);
-  Places places;
-  std::string_view rest = text;
-  for (int number = 1; !rest.empty(); ++number) {
-    const std::size_t end = rest.find('\n');
-    const std::vector<std::string> fields = fields_of(rest.substr(0, end));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-    if (fields.size() != 9 || (number == 1) != (fields[0] == "id"))
-      throw InputError(file.string(), {{"", number, "is not a line of places.csv",
-                                        "take the file that `faultsweep pillars` wrote"}});
-    if (number == 1) continue;
-    places.section_fault = fields[2];
-    places.all.push_back({.id = fields[0],
-                          .fault = fields[1],
-                          .x = number_in(fields[3]),
-                          .y = number_in(fields[4]),
-                          .azimuth = number_in(fields[5]),
-                          .dip = number_in(fields[6]),
-                          .top_depth = number_in(fields[7]),
-                          .base_depth = number_in(fields[8])});
-  }
-  return places;
+FaultMap::Place map_place(const PlaceLine& line) {
+  return {.id = line.id,
+          .fault = line.fault,
+          .x = line.x.value_or(kNone),
+          .y = line.y.value_or(kNone),
+          .azimuth = line.azimuth.value_or(kNone),
+          .dip = line.dip.value_or(kNone),
+          .top_depth = line.top_depth.value_or(kNone),
+          .base_depth = line.base_depth.value_or(kNone),
+          .start_date = line.start_date};
 }
 
 /// When the pillar's fault began to slide, by position of the case, years.
@@ -100,39 +62,86 @@ std::map<long, double> first_times(const Store& store, const CampaignInfo& campa
   return times;
 }
 
+/// A date as many years later; "" where it is not known.
+std::string date_after(const std::string& start, double years) {
+  const auto zero = faultsim::parse_date(start);
+  return zero && std::isfinite(years) ? faultsim::date_text(*zero + years * kYear) : "";
+}
+
+/// What became of the case of a place, which slides first at a time, years.
+void fill(const CaseRow& row, double time, FaultMap::Place& place, FaultMap& map) {
+  const auto i = static_cast<std::size_t>(&place - map.places.data());
+  place.position = row.position;
+  map.outcomes[i] = row.outcome.empty() ? row.state : row.outcome;
+  for (std::size_t k = 0; k < row.metrics.size(); ++k)
+    map.properties[k].values[i] = number_of(row.metrics[k]) / kMapped[k].per_unit;
+  map.properties[row.metrics.size()].values[i] = time;
+  map.first_dates[i] = date_after(place.start_date, time);
+  map.properties.back().values[i] = 0;
+}
+
+/// The places of a file that are cases of the campaign, in their order.
+std::vector<FaultMap::Place*> cases_of(FaultMap& map, const std::vector<PlaceLine>& lines) {
+  std::vector<FaultMap::Place*> cases;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i].refused.empty()) cases.push_back(&map.places[i]);
+  return cases;
+}
+
+/// Of refused pillars there are no values.
+void fill_refused(FaultMap& map) {
+  map.outcomes.resize(map.places.size(), "refused");
+  map.first_dates.resize(map.places.size());
+  for (FaultMap::Property& one : map.properties) one.values.resize(map.places.size(), kNone);
+  std::vector<double> refused;
+  for (const FaultMap::Place& place : map.places) refused.push_back(place.position == 0 ? 1 : 0);
+  map.properties.push_back({"refused", "1", "is not among the cases: see refused.csv", refused});
+}
+
 }  // namespace
+
+bool FaultMap::Place::has_panel() const {
+  const double all = x + y + azimuth + dip + top_depth + base_depth;
+  return std::isfinite(all);
+}
 
 FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
                         const std::filesystem::path& places_file) {
-  const Places places = read_places(places_file);
+  const std::vector<PlaceLine> lines = read_places(places_file);
   if (store.faults(campaign.id).empty())
     throw InputError(campaign.name, "no pillar has a result yet",
                      "run it first: faultsweep run " + campaign.name);
-  const Selection selection = make_selection(store, campaign, "", places.section_fault);
+  const auto any = std::ranges::find(lines, "", &PlaceLine::refused);
+  const Selection selection =
+      make_selection(store, campaign, "", any == lines.end() ? "" : any->section_fault);
   const std::map<std::string, ScopedMetric> known = known_metrics(selection);
-  FaultMap map{campaign, places.all, {}, {}};
+  FaultMap map;
+  map.campaign = campaign;
+  map.fault = selection.fault->id;
+  map.places = mapped(lines, map_place);
   Store::TableQuery query;
   query.by_design_row = true;
-  query.fault = selection.fault->id;
+  query.fault = map.fault;
   for (const Mapped& one : kMapped) {
     const ScopedMetric& metric = known.at(one.metric);
     map.properties.push_back({one.name, one.unit, metric.description, {}});
     query.columns.push_back({metric.sql, {}});
   }
-  map.properties.push_back(
-      {"first_sliding_time", "year", "end of the first load step in which it slides", {}});
-  const std::map<long, double> times = first_times(store, campaign, selection.fault->id);
+  map.properties.push_back({"first_sliding_time", "year", "when it was first seen to slide", {}});
+  fill_refused(map);
+  const std::vector<FaultMap::Place*> cases = cases_of(map, lines);
+  const std::map<long, double> times = first_times(store, campaign, map.fault);
+  std::size_t n_rows = 0;
   store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
-    map.outcomes.push_back(row.outcome.empty() ? row.state : row.outcome);
-    for (std::size_t k = 0; k < row.metrics.size(); ++k)
-      map.properties[k].values.push_back(number_of(row.metrics[k]) / kMapped[k].per_unit);
+    if (n_rows++ >= cases.size()) return;
+    FaultMap::Place& place = *cases[n_rows - 1];
     const auto time = times.find(row.position);
-    map.properties.back().values.push_back(time == times.end() ? kNone : time->second);
+    fill(row, time == times.end() ? kNone : time->second, place, map);
   });
-  if (map.outcomes.size() != map.places.size())
+  if (n_rows != cases.size())
     throw InputError(places_file.string(),
-                     concat(counted(map.places.size(), "place", "places"), ", but ", campaign.name,
-                            " has ", counted(map.outcomes.size(), "pillar", "pillars")),
+                     concat(counted(cases.size(), "place", "places"), ", but ", campaign.name,
+                            " has ", counted(n_rows, "pillar", "pillars")),
                      "take the places.csv that the campaign was made with");
   return map;
 }

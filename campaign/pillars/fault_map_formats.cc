@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -30,7 +31,7 @@ std::vector<std::vector<std::size_t>> traces(const FaultMap& map) {
   std::map<std::string, std::size_t> number;
   for (std::size_t i = 0; i < map.places.size(); ++i) {
     const std::string& fault = map.places[i].fault;
-    if (fault.empty()) continue;
+    if (fault.empty() || !map.places[i].has_panel()) continue;
     const auto [found, is_new] = number.try_emplace(fault, all.size());
     if (is_new) all.emplace_back();
     all[found->second].push_back(i);
@@ -55,7 +56,15 @@ std::string data_array(const std::string& type, const std::string& name, int com
                 components, "\" format=\"binary\">", binary(numbers), "</DataArray>\n");
 }
 
-/// Cells of the VTU file, by points: 2 i is the top of place i, 2 i + 1 its foot.
+/// Places that have a panel; their points in the VTU file follow each other, top and foot.
+std::vector<std::size_t> panels(const FaultMap& map) {
+  std::vector<std::size_t> all;
+  for (std::size_t i = 0; i < map.places.size(); ++i)
+    if (map.places[i].has_panel()) all.push_back(i);
+  return all;
+}
+
+/// Cells of the VTU file, by points: 2 i is the top of panel i, 2 i + 1 its foot.
 struct Cells {
   std::vector<std::int64_t> points, ends;
   std::vector<std::uint8_t> types;
@@ -66,13 +75,17 @@ struct Cells {
   }
 };
 
-Cells cells_of(const FaultMap& map) {
+Cells cells_of(const FaultMap& map, const std::vector<std::size_t>& shown) {
   constexpr std::uint8_t kLine = 3, kQuad = 9;  // VTK's numbers
   Cells cells;
-  for (std::size_t i = 0; i < map.places.size(); ++i) cells.add({2 * i, 2 * i + 1}, kLine);
+  std::vector<std::size_t> panel(map.places.size());
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    panel[shown[i]] = i;
+    cells.add({2 * i, 2 * i + 1}, kLine);
+  }
   for (const std::vector<std::size_t>& trace : traces(map)) {
     for (std::size_t k = 0; k + 1 < trace.size(); ++k) {
-      const std::size_t a = 2 * trace[k], b = 2 * trace[k + 1];
+      const std::size_t a = 2 * panel[trace[k]], b = 2 * panel[trace[k + 1]];
       cells.add({a, b, b + 1, a + 1}, kQuad);
     }
   }
@@ -130,36 +143,40 @@ std::string fault_map_to_csv(const FaultMap& map) {
   for (const FaultMap::Property& one : map.properties) {
     text += "," + one.name + column_unit(one.unit);
   }
-  text += "\n";
+  const bool has_dates =
+      std::ranges::any_of(map.first_dates, [](const std::string& one) { return !one.empty(); });
+  text += has_dates ? ",first_sliding_date\n" : "\n";
   for (std::size_t i = 0; i < map.places.size(); ++i) {
     const FaultMap::Place& place = map.places[i];
     text += csv_name(place.id) + "," + csv_name(place.fault);
     for (const double number :
          {place.x, place.y, place.azimuth, place.dip, place.top_depth, place.base_depth})
-      text += "," + rounded_number(number);
+      text += "," + (std::isnan(number) ? "" : rounded_number(number));
     text += "," + map.outcomes[i];
     for (const FaultMap::Property& one : map.properties)
       text += "," + (std::isnan(one.values[i]) ? "" : rounded_number(one.values[i]));
-    text += "\n";
+    text += has_dates ? "," + map.first_dates[i] + "\n" : "\n";
   }
   return text;
 }
 
 std::string fault_map_to_vtu(const FaultMap& map) {
+  const std::vector<std::size_t> shown = panels(map);
   std::vector<double> points;
-  for (const FaultMap::Place& place : map.places) {
+  for (const std::size_t i : shown) {
+    const FaultMap::Place& place = map.places[i];
     const auto [x, y] = foot_of(place);
     points.insert(points.end(), {place.x, place.y, -place.top_depth, x, y, -place.base_depth});
   }
-  const Cells cells = cells_of(map);
+  const Cells cells = cells_of(map, shown);
   std::string text = concat(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece "
       "NumberOfPoints=\"",
-      2 * map.places.size(), "\" NumberOfCells=\"", cells.types.size(), "\">\n<PointData>\n");
+      2 * shown.size(), "\" NumberOfCells=\"", cells.types.size(), "\">\n<PointData>\n");
   for (const FaultMap::Property& one : map.properties) {
     std::vector<double> values;
-    for (const double value : one.values) values.insert(values.end(), 2, value);
+    for (const std::size_t i : shown) values.insert(values.end(), 2, one.values[i]);
     const std::string unit = one.unit == "1" ? "" : " [" + one.unit + "]";
     text += data_array("Float64", one.name + unit, 1, values);
   }

@@ -1,12 +1,16 @@
 #include "campaign/pillars/pillar_campaign.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
+#include "campaign/pillars/pillar_section.h"
+#include "campaign/pillars/place_line.h"
 #include "campaign/spec/pointers.h"
+#include "simulator/common/dates.h"
 #include "simulator/common/units.h"
 #include "simulator/plan/field_check.h"
 #include "simulator/plan/plan.h"
@@ -22,81 +26,10 @@ namespace {
 
 using Role = PillarRole;
 
-constexpr const char* kFoot = "/geometry/blocks/0/";
-constexpr const char* kHanging = "/geometry/blocks/1/";
-constexpr const char* kDip = "/faults/1/dip_from_vertical";
-
-/// A parameter of the scene in all cases.
-struct Setting {
-  std::string pointer, unit;
-  double value;
-};
-
-/// What a section is made of, from the base scene where the table does not say.
-class Section {
- public:
-  Section(const Scene& base, const JsonDocument& document) : base_(base) {
-    const auto& field = base.field;
-    const bool fits = base.geometry_kind == faultsim::GeometryKind::field &&
-                      field.blocks.size() == 2 && base.faults.size() == 3;
-    if (!fits) {
-      throw InputError(document.source,
-                       {{"/geometry", document.line_of("/geometry"),
-                         "pillars are sections of a field with two blocks and a fault between",
-                         "start from `faultsim init`, and keep two blocks"}});
-    }
-    while (field.layers[layer_].name != field.reservoir_layer) ++layer_;
-    reservoir_ = faultsim::reservoir_range(field);
-  }
-
-  std::vector<Setting> settings(const PillarTable& table, std::size_t pillar,
-                                const std::optional<RegionalStress>& stress) const {
-    std::vector<Setting> all;
-    const auto length = [&](Role role, const std::string& pointer) {
-      if (const auto value = table.number(role, pillar)) all.push_back({pointer, "m", *value});
-    };
-    if (const auto depth = table.number(Role::depth, pillar)) {
-      const double thickness = reservoir_.bottom - reservoir_.top;
-      all.push_back({layer_top(layer_), "m", *depth});
-      if (layer_ + 1 < base_.field.layers.size())
-        all.push_back({layer_top(layer_ + 1), "m", *depth + thickness});
-      all.push_back({"/geometry/pivot_depth", "m", *depth + 0.5 * thickness});
-    }
-    length(Role::offset, std::string(kHanging) + "offset");
-    for (const auto& [block, role] :
-         {std::pair(kFoot, Role::thickness_foot), std::pair(kHanging, Role::thickness_hanging)}) {
-      length(Role::thickness, std::string(block) + "thickness");
-      length(role, std::string(block) + "thickness");
-    }
-    if (const auto dip = table.number(Role::dip, pillar)) all.push_back({kDip, "deg", *dip});
-    if (const auto dip = table.number(Role::dip_from_horizontal, pillar))
-      all.push_back({kDip, "deg", std::round(1e9 * (90 - *dip)) / 1e9});
-    if (stress) {
-      const double alpha = angle_to(*stress, table, pillar);
-      const double deviation = stress->largest - stress->smallest;
-      all.push_back({"/initial_state/ratio_across", "",
-                     stress->smallest + deviation * std::pow(std::sin(alpha), 2)});
-      all.push_back({"/initial_state/ratio_along", "",
-                     stress->smallest + deviation * std::pow(std::cos(alpha), 2)});
-    }
-    return all;
-  }
-
-  /// Between strike and the largest horizontal stress, rad.
-  static double angle_to(const RegionalStress& stress, const PillarTable& table,
-                         std::size_t pillar) {
-    return (*table.number(Role::azimuth, pillar) - stress.azimuth) * faultsim::kDegree;
-  }
-
- private:
-  static std::string layer_top(std::size_t layer) {
-    return faultsim::element("/geometry/layers", layer) + "/top";
-  }
-
-  const Scene& base_;
-  std::size_t layer_ = 0;  ///< of the reservoir.
-  faultsim::DepthInterval reservoir_;
-};
+/// First sliding pressures are searched within their load steps, unless the scene says how far.
+constexpr const char* kSearched = "/numerics/activation_tolerance";
+constexpr const char* kSearchedTo = "0.1 bar";
+constexpr const char* kNames = "pillar";  ///< the parameter of the campaign that names its cases.
 
 /// Pointers of the table's other parameters. Throws InputError with the near misses.
 std::vector<std::string> pointers_of(const PillarTable& table, const JsonDocument& base) {
@@ -137,7 +70,7 @@ void require_distinct(const PillarTable& table, const std::vector<Setting>& sett
 std::optional<PillarScene> scene_of(JsonDocument document, const std::vector<Setting>& settings,
                                     std::vector<Problem>& problems) {
   for (const Setting& one : settings) {
-    if (faultsim::put_value(document.value, one.pointer, spelled(one.value, one.unit))) continue;
+    if (faultsim::put_value(document.value, one.pointer, one.in_scene())) continue;
     problems.push_back({one.pointer, 0, "the scene has no place for it", "fix the scene"});
     return std::nullopt;
   }
@@ -155,13 +88,17 @@ struct FieldMember {
 constexpr FieldMember kFields[] = {{"/pressure_field", &Scene::pressure_field},
                                    {"/temperature_field", &Scene::temperature_field}};
 
-/// What places a section in its flow results; the scene need not say it.
-std::vector<std::pair<std::string, json>> placements(const Scene& scene) {
+/// What places a section in its flow results; the scene need not say it. Histories that end at
+/// dates of their own leave the reports behind out.
+std::vector<std::pair<std::string, json>> placements(const Scene& scene, const json& document,
+                                                     bool ends_differ) {
   std::vector<std::pair<std::string, json>> all;
   for (const FieldMember& field : kFields) {
     if (!(scene.*field.load).is_given()) continue;
     all.emplace_back(std::string(field.at) + "/origin", json{"0 m", "0 m"});
     all.emplace_back(std::string(field.at) + "/azimuth", "0 deg");
+    const std::string end = std::string(field.at) + "/end";
+    if (ends_differ && faultsim::value_at(document, end) == nullptr) all.emplace_back(end, "cut");
   }
   return all;
 }
@@ -190,37 +127,195 @@ void place_in_fields(const Scene& base, const PillarTable& table, std::size_t pi
   }
 }
 
-constexpr const char* kPlaces =
-    "id,fault,section_fault,x_m,y_m,azimuth_deg,dip_deg,top_depth_m,base_depth_m\n";
-
-/// A line of places.csv: where the fault crosses the two reservoirs.
-std::string place_of(const PillarTable& table, std::size_t pillar, const Scene& scene) {
+/// Where the fault crosses the two reservoirs.
+PlaceLine place_of(const PillarTable& table, std::size_t pillar, const Scene& scene) {
   faultsim::DepthInterval panel = faultsim::reservoir_range(scene.field, scene.field.blocks[0]);
   panel.unite(faultsim::reservoir_range(scene.field, scene.field.blocks[1]));
-  const double dip = scene.faults[1].dip_from_vertical / faultsim::kDegree;
-  std::string line = csv_field(table.ids[pillar]) + "," + csv_field(table.faults[pillar]) + "," +
-                     csv_field(scene.faults[1].name);
-  for (const double number :
-       {*table.number(Role::x, pillar), *table.number(Role::y, pillar),
-        table.number(Role::azimuth, pillar).value_or(0), dip, panel.top, panel.bottom}) {
-    line += "," + exact_number(number);
+  return {.id = table.ids[pillar],
+          .fault = table.faults[pillar],
+          .section_fault = scene.faults[1].name,
+          .x = table.number(Role::x, pillar),
+          .y = table.number(Role::y, pillar),
+          .azimuth = table.number(Role::azimuth, pillar).value_or(0),
+          .dip = scene.faults[1].dip_from_vertical / faultsim::kDegree,
+          .top_depth = panel.top,
+          .base_depth = panel.bottom,
+          .start_date = scene.start_date ? faultsim::date_text(*scene.start_date) : "",
+          .refused = ""};
+}
+
+/// What is known of a line of the table that is not all there.
+PlaceLine place_of(const PillarTable::Refused& line) {
+  const auto number = [&](Role role) -> std::optional<double> {
+    const auto found = line.numbers.find(role);
+    return found == line.numbers.end() ? std::nullopt : std::optional(found->second);
+  };
+  return {.id = line.id,
+          .fault = line.fault,
+          .section_fault = "",
+          .x = number(Role::x),
+          .y = number(Role::y),
+          .azimuth = number(Role::azimuth),
+          .dip = std::nullopt,
+          .top_depth = std::nullopt,
+          .base_depth = std::nullopt,
+          .start_date = "",
+          .refused = line.problems.front().what};
+}
+
+/// A problem of a pillar's scene as one of its line: by the column whose parameter it is about.
+Problem in_table(Problem problem, const std::vector<Setting>& settings, const PillarTable& table,
+                 long line) {
+  problem.line = static_cast<int>(line);
+  for (const FieldMember& field : kFields) {
+    if (problem.pointer != field.at) continue;
+    problem.what = concat(problem.pointer, ": ", problem.what);
+    problem.pointer = concat(table.heading(Role::x), ", ", table.heading(Role::y));
+    problem.cure = concat("leave the pillar out, or say where the x = y = 0 of the pillars is: ",
+                          problem.cure);
+    return problem;
   }
-  return line + "\n";
+  for (const Setting& one : settings) {
+    if (one.heading.empty() || !problem.pointer.starts_with(one.pointer)) continue;
+    problem.pointer = one.heading;
+    return problem;
+  }
+  if (!problem.pointer.empty()) problem.what = concat(problem.pointer, ": ", problem.what);
+  problem.pointer.clear();
+  return problem;
 }
 
 std::string header_of(const std::vector<Setting>& settings) {
-  std::string line;
-  for (const Setting& one : settings) {
-    line +=
-        (line.empty() ? "" : ", ") + one.pointer + (one.unit.empty() ? "" : " [" + one.unit + "]");
-  }
+  std::string line = kNames;
+  for (const Setting& one : settings)
+    line += ", " + one.pointer + (one.unit.empty() ? "" : " [" + one.unit + "]");
   return line + "\n";
 }
 
-std::string values_of(const std::vector<Setting>& settings) {
-  std::string line =
-      joined(settings, ", ", [](const Setting& one) { return shortest_text(one.value); });
-  return line + "\n";
+/// Makes a case of one pillar after the other.
+class CampaignMaker {
+ public:
+  CampaignMaker(const PillarTable& table, const JsonDocument& base,
+                const std::optional<RegionalStress>& stress)
+      : table_(table),
+        stress_(stress),
+        section_(plane_section(base)),
+        scene_(faultsim::read_scene(section_)),
+        sections_(scene_, base),
+        pointers_(pointers_of(table, base)) {
+    if (faultsim::value_at(base.value, kSearched) == nullptr) set_[kSearched] = kSearchedTo;
+    for (const auto& [pointer, value] : placements(scene_, base.value, !table.until.empty())) {
+      set_[pointer] = value;
+      faultsim::put_value(section_.value, pointer, value);
+    }
+    require_columns();
+    for (const PillarTable::Refused& one : table.refused) {
+      campaign_.refused.push_back({one.id, one.line, one.problems});
+      places_.emplace_back(one.line, place_of(one).text());
+    }
+  }
+
+  void add(std::size_t pillar);
+
+  /// @param scene_file  as campaign.json is to name it.
+  PillarCampaign take(const std::string& scene_file, const std::string& name) {
+    std::ranges::sort(campaign_.refused, {}, &RefusedPillar::line);
+    std::ranges::sort(places_, {}, &std::pair<long, std::string>::first);
+    campaign_.places = PlaceLine::header();
+    for (const auto& [line, text] : places_) campaign_.places += text;
+    std::string title = concat("Pillars of ", table_.source);
+    if (!campaign_.refused.empty())
+      title += concat("; ", campaign_.refused.size(), " of ", places_.size(),
+                      " are refused and not among the cases");
+    campaign_.spec =
+        json{{"format", 1},
+             {"name", name},
+             {"title", title},
+             {"base", scene_file},
+             {"set", set_},
+             {"design", {{"kind", "places"}, {"file", "samples.csv"}, {"names", kNames}}}}
+            .dump(2) +
+        "\n";
+    return std::move(campaign_);
+  }
+
+ private:
+  static JsonDocument plane_section(const JsonDocument& base) {
+    JsonDocument section = base;
+    faultsim::set_value(section, "/numerics/plane_strain", "on");
+    return section;
+  }
+  void require_columns() const;
+  std::vector<Setting> settings_of(std::size_t pillar) const;
+  void note_shear(std::size_t pillar);
+
+  const PillarTable& table_;
+  const std::optional<RegionalStress>& stress_;
+  JsonDocument section_;
+  Scene scene_;
+  Section sections_;
+  std::vector<std::string> pointers_;  ///< of the table's other parameters.
+  json set_ = {{"/numerics/plane_strain", "on"}};
+  std::vector<std::pair<long, std::string>> places_;  ///< by line of the table.
+  PillarCampaign campaign_;
+};
+
+void CampaignMaker::require_columns() const {
+  const bool has_azimuth = table_.numbers.contains(Role::azimuth);
+  const char* const cure = "add a column \"azimuth [deg]\"";
+  if (stress_ && !has_azimuth)
+    throw InputError(table_.source, "ratios by direction need the strike of each pillar", cure);
+  if (scene_.has_field() && !has_azimuth)
+    throw InputError(table_.source, "a flow result needs the strike of each pillar", cure);
+  sections_.require_date(table_);
+}
+
+std::vector<Setting> CampaignMaker::settings_of(std::size_t pillar) const {
+  std::vector<Setting> settings = sections_.settings(table_, pillar, stress_);
+  for (std::size_t k = 0; k < pointers_.size(); ++k) {
+    const PillarTable::Parameter& one = table_.parameters[k];
+    settings.push_back({pointers_[k], one.unit, one.values[pillar], one.heading});
+  }
+  if (settings.empty() && !scene_.has_field())
+    throw InputError(table_.source, "nothing differs from pillar to pillar",
+                     "add columns: depth, offset, thickness, dip, azimuth or any "
+                     "parameter that `faultsim parameters` lists");
+  return settings;
+}
+
+void CampaignMaker::note_shear(std::size_t pillar) {
+  if (!stress_) return;
+  const double alpha = Section::angle_to(*stress_, table_, pillar);
+  campaign_.largest_shear_left_out = std::max(
+      campaign_.largest_shear_left_out,
+      std::abs((stress_->largest - stress_->smallest) * std::sin(alpha) * std::cos(alpha)));
+}
+
+void CampaignMaker::add(std::size_t pillar) {
+  std::vector<Setting> settings = settings_of(pillar);
+  if (pillar == 0) require_distinct(table_, settings);
+  std::vector<Problem> problems;
+  std::optional<PillarScene> one = scene_of(section_, settings, problems);
+  if (one && scene_.has_field()) {
+    place_in_fields(scene_, table_, pillar, one->scene, settings);
+    problems = faultsim::check_fields(one->scene, one->plan).problems;
+  }
+  const long line = table_.lines[pillar];
+  PlaceLine place =
+      one ? place_of(table_, pillar, one->scene) : place_of(table_.as_refused(pillar));
+  if (!problems.empty()) {
+    for (Problem& problem : problems)
+      problem = in_table(std::move(problem), settings, table_, line);
+    place.refused = problems.front().what;
+    campaign_.refused.push_back({table_.ids[pillar], line, std::move(problems)});
+  } else {
+    note_shear(pillar);
+    if (campaign_.n_cases++ == 0) campaign_.samples = header_of(settings);
+    campaign_.samples += csv_field(table_.ids[pillar]);
+    for (const Setting& setting : settings) campaign_.samples += ", " + setting.in_table();
+    campaign_.samples += "\n";
+  }
+  places_.emplace_back(line, place.text());
 }
 
 }  // namespace
@@ -229,65 +324,12 @@ PillarCampaign make_pillar_campaign(const PillarTable& table, const JsonDocument
                                     const std::string& scene_file, const std::string& name,
                                     const std::optional<RegionalStress>& stress,
                                     const std::function<void(std::size_t)>& progress) {
-  if (stress && !table.numbers.contains(Role::azimuth))
-    throw InputError(table.source, "ratios by direction need the strike of each pillar",
-                     "add a column \"azimuth [deg]\"");
-  JsonDocument section = base;
-  faultsim::set_value(section, "/numerics/plane_strain", "on");
-  const Scene scene = faultsim::read_scene(section);
-  json set = {{"/numerics/plane_strain", "on"}};
-  for (const auto& [pointer, value] : placements(scene)) {
-    set[pointer] = value;
-    faultsim::put_value(section.value, pointer, value);
-  }
-  if (scene.has_field() && !table.numbers.contains(Role::azimuth))
-    throw InputError(table.source, "a flow result needs the strike of each pillar",
-                     "add a column \"azimuth [deg]\"");
-  const Section sections(scene, base);
-  const std::vector<std::string> pointers = pointers_of(table, base);
-  PillarCampaign campaign;
-  campaign.places = kPlaces;
-  for (const PillarTable::Refused& one : table.refused)
-    campaign.refused.push_back({one.id, one.problem.line, one.problem});
+  CampaignMaker maker(table, base, stress);
   for (std::size_t i = 0; i < table.n_pillars(); ++i) {
     if (progress) progress(i);
-    std::vector<Setting> settings = sections.settings(table, i, stress);
-    for (std::size_t k = 0; k < pointers.size(); ++k)
-      settings.push_back({pointers[k], table.parameters[k].unit, table.parameters[k].values[i]});
-    if (settings.empty() && !scene.has_field())
-      throw InputError(table.source, "nothing differs from pillar to pillar",
-                       "add columns: depth, offset, thickness, dip, azimuth or any "
-                       "parameter that `faultsim parameters` lists");
-    if (i == 0) require_distinct(table, settings);
-    std::vector<Problem> problems;
-    std::optional<PillarScene> one = scene_of(section, settings, problems);
-    if (one && scene.has_field()) {
-      place_in_fields(scene, table, i, one->scene, settings);
-      problems = faultsim::check_fields(one->scene, one->plan).problems;
-    }
-    if (!problems.empty()) {
-      campaign.refused.push_back({table.ids[i], table.lines[i], problems.front()});
-      continue;
-    }
-    if (stress) {
-      const double alpha = Section::angle_to(*stress, table, i);
-      campaign.largest_shear_left_out = std::max(
-          campaign.largest_shear_left_out,
-          std::abs((stress->largest - stress->smallest) * std::sin(alpha) * std::cos(alpha)));
-    }
-    if (campaign.n_cases++ == 0) campaign.samples = header_of(settings);
-    campaign.samples += values_of(settings);
-    campaign.places += place_of(table, i, one->scene);
+    maker.add(i);
   }
-  campaign.spec = json{{"format", 1},
-                       {"name", name},
-                       {"title", concat("Pillars of ", table.source)},
-                       {"base", scene_file},
-                       {"set", set},
-                       {"design", {{"kind", "samples"}, {"file", "samples.csv"}}}}
-                      .dump(2) +
-                  "\n";
-  return campaign;
+  return maker.take(scene_file, name);
 }
 
 }  // namespace faultsweep

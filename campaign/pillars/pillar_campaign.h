@@ -25,17 +25,20 @@ struct RegionalStress {
 struct RefusedPillar {
   std::string id;
   long line = 0;
-  faultsim::Problem problem;  ///< the first of its problems.
+  /// Pointer: the column of the table that it is about, as the table calls it; "" = of several or
+  /// of none, and then the text says what of the scene it is about.
+  std::vector<faultsim::Problem> problems;
 };
 
 /// A campaign with a case for each pillar that can be modelled, as texts of files.
 struct PillarCampaign {
   std::string spec;     ///< campaign.json; names samples.csv and the scene.
   std::string samples;  ///< samples.csv: a line of scene parameters for each case.
-  std::string places;   ///< places.csv: id, fault, place and panel of each case, for maps.
+  std::string places;   ///< places.csv: id, fault, place and panel of each pillar, for maps; of
+                        ///< refused ones what is known, and why.
   std::size_t n_cases = 0;
-  std::vector<RefusedPillar> refused;
-  double largest_shear_left_out = 0;  ///< of RegionalStress, over the vertical effective stress.
+  std::vector<RefusedPillar> refused;  ///< in order of lines.
+  double largest_shear_left_out = 0;   ///< of RegionalStress, over the vertical effective stress.
 };
 
 /// @param scene_file  as campaign.json is to name it.

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "campaign/common/names.h"
+#include "simulator/common/dates.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/table_reader.h"
 
@@ -24,7 +25,7 @@ struct RoleInfo {
   const char* name;
   Dimension dimension;  ///< number: a text.
 };
-constexpr std::array<RoleInfo, 12> kRoles = {{
+constexpr std::array<RoleInfo, 13> kRoles = {{
     {PillarRole::id, "id", Dimension::number},
     {PillarRole::fault, "fault", Dimension::number},
     {PillarRole::x, "x", Dimension::length},
@@ -37,6 +38,7 @@ constexpr std::array<RoleInfo, 12> kRoles = {{
     {PillarRole::thickness_hanging, "thickness_hanging", Dimension::length},
     {PillarRole::dip, "dip", Dimension::angle},
     {PillarRole::dip_from_horizontal, "dip_from_horizontal", Dimension::angle},
+    {PillarRole::until, "until", Dimension::number},
 }};
 
 /// Reads rows into pillars.
@@ -111,10 +113,11 @@ class Reader {
             table_quote(own.text) + " ends with " + table_quote(own.words) + " behind its unit",
             "end it with its unit");
       column.parameter = static_cast<int>(table_.parameters.size());
-      table_.parameters.push_back({own.name, own.unit.value_or(""), {}});
+      table_.parameters.push_back({own.name, own.unit.value_or(""), {}, given});
       return;
     }
     column.role = &*role;
+    table_.headings[role->role] = given;
     if (role->dimension == Dimension::number) return;
     table_.numbers[role->role];
     const bool angle = role->dimension == Dimension::angle;
@@ -144,42 +147,69 @@ class Reader {
       reader_.refuse("there are two dips", "give one of them");
   }
 
+  /// A line, cell by cell.
+  struct Line {
+    std::string id, fault, until;
+    std::vector<double> numbers;  ///< by column.
+    PillarTable::Refused refused;
+  };
+
   void read_pillar() {
-    std::string id = std::to_string(reader_.line()), fault;
-    std::vector<double> numbers(columns_.size());
-    std::optional<Problem> why;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      const Column& column = columns_[k];
-      if (column.is_number()) {
-        const faultsim::TableNumber number = reader_.check_number(k);
-        numbers[k] = number.value * column.factor;
-        if (!number.what.empty() && !why)
-          why = Problem{reader_.columns()[k].name, reader_.line(), number.what, number.cure};
-      } else if (column.role != nullptr) {
-        (column.role->role == PillarRole::id ? id : fault) = reader_.cell(k);
-      }
+    Line line;
+    line.id = std::to_string(reader_.line());
+    line.numbers.resize(columns_.size());
+    for (std::size_t k = 0; k < columns_.size(); ++k) read_cell(k, line);
+    if (!ids_.insert(line.id).second) {
+      const auto heading = table_.headings.find(PillarRole::id);
+      line.refused.problems.push_back({heading == table_.headings.end() ? "" : heading->second,
+                                       reader_.line(),
+                                       concat("pillar ", table_quote(line.id), " was there before"),
+                                       "give each pillar an id of its own"});
     }
-    if (!ids_.insert(id).second)
-      reader_.refuse(concat("pillar ", table_quote(id), " was there before"),
-                     "give each pillar an id of its own");
-    if (why) {
-      table_.refused.push_back({id, std::move(*why)});
-    } else {
-      keep_pillar(id, fault, numbers);
-    }
+    if (line.refused.problems.empty()) return keep_pillar(line);
+    line.refused.id = line.id;
+    line.refused.fault = line.fault;
+    line.refused.line = reader_.line();
+    table_.refused.push_back(std::move(line.refused));
   }
 
-  void keep_pillar(const std::string& id, const std::string& fault,
-                   const std::vector<double>& numbers) {
+  void read_cell(std::size_t k, Line& line) {
+    const Column& column = columns_[k];
+    const std::string& heading = reader_.columns()[k].name;
+    if (column.is_number()) {
+      const faultsim::TableNumber number = reader_.check_number(k);
+      line.numbers[k] = number.value * column.factor;
+      if (!number.what.empty())
+        line.refused.problems.push_back({heading, reader_.line(), number.what, number.cure});
+      else if (column.role != nullptr)
+        line.refused.numbers[column.role->role] = line.numbers[k];
+      return;
+    }
+    if (column.role == nullptr) return;
+    const std::string text(reader_.cell(k));
+    if (column.role->role == PillarRole::id) line.id = text;
+    if (column.role->role == PillarRole::fault) line.fault = text;
+    if (column.role->role != PillarRole::until) return;
+    line.until = text;
+    if (!faultsim::parse_date(text))
+      line.refused.problems.push_back({heading, reader_.line(),
+                                       concat(table_quote(text), " in column ", k + 1, " ",
+                                              table_quote(heading), " is not a date"),
+                                       "write it as year-month-day: 2005-07-31"});
+  }
+
+  void keep_pillar(const Line& line) {
     table_.lines.push_back(reader_.line());
-    table_.ids.push_back(id);
-    table_.faults.push_back(fault);
+    table_.ids.push_back(line.id);
+    table_.faults.push_back(line.fault);
+    if (table_.headings.contains(PillarRole::until)) table_.until.push_back(line.until);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
       const Column& column = columns_[k];
       if (column.parameter >= 0)
-        table_.parameters[static_cast<std::size_t>(column.parameter)].values.push_back(numbers[k]);
+        table_.parameters[static_cast<std::size_t>(column.parameter)].values.push_back(
+            line.numbers[k]);
       else if (column.is_number())
-        table_.numbers[column.role->role].push_back(numbers[k]);
+        table_.numbers[column.role->role].push_back(line.numbers[k]);
     }
   }
 
@@ -196,6 +226,17 @@ std::optional<double> PillarTable::number(PillarRole role, std::size_t pillar) c
   const auto column = numbers.find(role);
   if (column == numbers.end()) return std::nullopt;
   return column->second.at(pillar);
+}
+
+std::string PillarTable::heading(PillarRole role) const {
+  const auto found = headings.find(role);
+  return found == headings.end() ? "" : found->second;
+}
+
+PillarTable::Refused PillarTable::as_refused(std::size_t pillar) const {
+  Refused line{ids[pillar], faults[pillar], lines[pillar], {}, std::vector<faultsim::Problem>(1)};
+  for (const auto& [role, values] : numbers) line.numbers[role] = values[pillar];
+  return line;
 }
 
 const char* name_of(PillarRole role) {

@@ -25,6 +25,7 @@ enum class PillarRole {
   thickness_hanging,    ///< m, in the hanging wall.
   dip,                  ///< deg from the vertical, towards the hanging wall.
   dip_from_horizontal,  ///< deg; 90 deg less dip.
+  until,                ///< the date, 2005-07-31, at which the pillar's history ends.
 };
 
 /// Pillars, line by line.
@@ -33,16 +34,21 @@ struct PillarTable {
   struct Parameter {
     std::string name, unit;      ///< unit as given; "" = a plain number.
     std::vector<double> values;  ///< in that unit.
+    std::string heading;         ///< as the file calls it.
   };
-  /// A line whose numbers are not all there.
+  /// A line that is not all there, with what is.
   struct Refused {
-    std::string id;
-    faultsim::Problem problem;  ///< the first of its problems; pointer: the column.
+    std::string id, fault;
+    long line = 0;
+    std::map<PillarRole, double> numbers;
+    std::vector<faultsim::Problem> problems;  ///< pointer: the column, as the file calls it.
   };
   std::string source;
   std::vector<long> lines;                            ///< of each pillar, from 1.
   std::vector<std::string> ids, faults;               ///< ids are distinct; a fault may be "".
   std::map<PillarRole, std::vector<double>> numbers;  ///< of the columns there are; m, deg.
+  std::vector<std::string> until;                     ///< dates; empty where there is no column.
+  std::map<PillarRole, std::string> headings;         ///< what the file calls them.
   std::vector<Parameter> parameters;
   std::vector<std::string> ignored;  ///< columns of the file that nobody asked for.
   std::vector<Refused> refused;      ///< in order of lines.
@@ -50,14 +56,19 @@ struct PillarTable {
   std::size_t n_pillars() const { return lines.size(); }
   /// A role's value of a pillar; none where there is no such column.
   std::optional<double> number(PillarRole role, std::size_t pillar) const;
+  /// What the file calls a role; "" where there is no such column.
+  std::string heading(PillarRole role) const;
+  /// A pillar as a line that is refused for a reason to come.
+  Refused as_refused(std::size_t pillar) const;
 };
 
 /// How a file calls the columns: "depth" -> "TOP_TVD [m]", "friction_angle" -> "PHI [deg]".
 using ColumnNames = std::map<std::string, std::string>;
 
 /// Reads a table (common/table_reader.h): a line of columns, each with its unit in brackets, then a
-/// line for each pillar. A pillar with a number that is none or out of range is refused alone, as
-/// tables mark so what is not known of a place; what damages the table refuses all of it.
+/// line for each pillar. A pillar with a number that is none or out of range, or with the id of
+/// another one, is refused alone, as tables mark so what is not known of a place; what damages the
+/// table refuses all of it.
 /// @param names  empty: the file's columns have the names of roles and of scene parameters; else
 ///               what is not in it is ignored.
 /// Throws InputError with what is wrong, line by line.

@@ -232,7 +232,8 @@ Table pillar_table(Random& random) {
 Numbers read_pillars(const std::string& text) {
   const faultsweep::PillarTable table = faultsweep::parse_pillar_table(text, "t.csv", {});
   std::vector<Problem> problems;
-  for (const auto& one : table.refused) problems.push_back(one.problem);
+  for (const auto& one : table.refused)
+    problems.insert(problems.end(), one.problems.begin(), one.problems.end());
   if (!problems.empty()) throw InputError("t.csv", problems);
   Numbers numbers;
   using faultsweep::PillarRole;

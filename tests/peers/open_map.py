@@ -5,6 +5,7 @@ import csv
 import math
 import pathlib
 import sys
+from xml.etree import ElementTree
 
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
@@ -55,6 +56,18 @@ def main():
     for i, row in enumerate(rows):
         x, y, z = grid.GetPoint(2 * i)
         assert same(x, float(row["x_m"])) and same(y, float(row["y_m"])) and same(-z, float(row["top_depth_m"])), row["id"]
+    frames = ElementTree.parse(folder / "map.pvd").getroot().findall("Collection/DataSet")
+    years = [float(frame.get("timestep")) for frame in frames]
+    assert len(years) > 2 and years == sorted(years), years
+    for frame in frames:
+        reader.SetFileName(str(folder / frame.get("file")))
+        reader.Update()
+        grid = reader.GetOutput()
+        assert grid.GetNumberOfPoints() == 2 * len(rows), frame.get("file")
+        slides = grid.GetPointData().GetArray("slides")
+        for i, row in enumerate(rows):
+            began = number(row["first_sliding_time_year"])
+            assert slides.GetTuple1(2 * i) == (1 if began <= float(frame.get("timestep")) else 0), (frame.get("file"), row["id"])
     names, found = surfaces(folder / "map.ts")
     faults = list(dict.fromkeys(row["fault"] for row in rows))
     assert len(found) == len(faults), (len(found), faults)
@@ -68,7 +81,7 @@ def main():
                 wanted = number(row[column])
                 assert same(at[3 + k], -99999 if math.isnan(wanted) else wanted), (column, row["id"])
         assert all(1 <= corner <= len(vertices) for triangle in triangles for corner in triangle)
-    print(f"map: {len(rows)} pillars, {len(columns)} properties and {len(found)} surfaces are the same in CSV, VTU and TSurf")
+    print(f"map: {len(rows)} pillars, {len(columns)} properties and {len(found)} surfaces are the same in CSV, VTU and TSurf, {len(years)} years of PVD agree")
 
 
 main()

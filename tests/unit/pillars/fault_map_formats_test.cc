@@ -102,6 +102,25 @@ TEST(FaultMap, NamesAreSafeAndNumbersRounded) {
   EXPECT_NE(surface.find(" 2394.8 "), std::string::npos) << surface;
 }
 
+/// Refused pillars are said in tables; in space only where their panel is known.
+TEST(FaultMap, ShowsRefusedPillarsAndDates) {
+  FaultMap map = small_map();
+  map.places[1].dip = map.places[1].top_depth = kNone;
+  map.outcomes[1] = "refused";
+  map.first_dates = {"1994-06-30", "", ""};
+  const std::string csv = fault_map_to_csv(map);
+  EXPECT_NE(csv.find(",moment_N_m_per_m,first_sliding_date\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\na,F,100,0,0,45,2000,2300,converged,90,1.5,1994-06-30\n"), std::string::npos)
+      << csv;
+  EXPECT_NE(csv.find("\nb,F,100,50,0,,,2310,refused,,0,\n"), std::string::npos) << csv;
+  const std::string vtu = fault_map_to_vtu(map);
+  EXPECT_EQ(array_of<double>(vtu, "Points").size(), 12u);
+  EXPECT_EQ(array_of<double>(vtu, "moment [N m/m]").size(), 4u);
+  EXPECT_EQ(array_of<std::int64_t>(vtu, "connectivity"), (std::vector<std::int64_t>{0, 1, 2, 3}));
+  EXPECT_EQ(array_of<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{3, 3}));
+  EXPECT_EQ(fault_map_to_tsurf(map), "") << "one pillar of F is left";
+}
+
 TEST(FaultMap, VtuHasPanelsThatDipToTheRightOfTheirStrike) {
   const std::string text = fault_map_to_vtu(small_map());
   const auto points = array_of<double>(text, "Points");

@@ -53,7 +53,7 @@ PillarCampaign campaign_of(const PillarTable& table,
 TEST(PillarCampaign, RefusesAKeyThatTwoColumnsGive) {
   const auto refusal = [](const std::vector<std::string>& names) {
     PillarTable table = table_of({{Role::dip, {10}}});
-    for (const std::string& name : names) table.parameters.push_back({name, "deg", {20}});
+    for (const std::string& name : names) table.parameters.push_back({name, "deg", {20}, name});
     try {
       campaign_of(table);
     } catch (const faultsim::InputError& error) {
@@ -70,12 +70,24 @@ TEST(PillarCampaign, RefusesAKeyThatTwoColumnsGive) {
 
 TEST(PillarCampaign, KeepsWhatTheTableRefused) {
   PillarTable table = table_of({{Role::dip, {10}}});
-  table.refused.push_back({"X", {"offset", 7, "\"nan\" is not a number", "write a number"}});
+  table.refused.push_back({"X",
+                           "G",
+                           1,
+                           {{Role::y, 5}},
+                           {{"THROW", 1, "\"nan\" is not a number", "write a number"},
+                            {"X_RD", 1, "is empty", "write a number"}}});
   const PillarCampaign campaign = campaign_of(table);
   EXPECT_EQ(campaign.n_cases, 1U);
   ASSERT_EQ(campaign.refused.size(), 1U);
   EXPECT_EQ(campaign.refused[0].id, "X");
-  EXPECT_EQ(campaign.refused[0].line, 7);
+  EXPECT_EQ(campaign.refused[0].line, 1);
+  ASSERT_EQ(campaign.refused[0].problems.size(), 2U);
+  EXPECT_EQ(campaign.refused[0].problems[1].pointer, "X_RD");
+  // In the order of the table, with what is known of it and why it is no case.
+  EXPECT_EQ(line(campaign.places, 1), "X,G,,,5,,,,,,\"\"\"nan\"\" is not a number\"");
+  EXPECT_EQ(line(campaign.places, 2).substr(0, 5), "P0,F,");
+  EXPECT_EQ(nlohmann::json::parse(campaign.spec)["title"],
+            "Pillars of t.csv; 1 of 2 are refused and not among the cases");
 }
 
 TEST(PillarCampaign, PutsEachPillarIntoTheSection) {
@@ -86,17 +98,22 @@ TEST(PillarCampaign, PutsEachPillarIntoTheSection) {
                                                         {Role::dip_from_horizontal, {76.7, 95}}}));
   EXPECT_EQ(campaign.n_cases, 2u);
   EXPECT_TRUE(campaign.refused.empty());
-  EXPECT_EQ(line(campaign.samples, 0),
-            "/geometry/layers/2/top [m], /geometry/layers/3/top [m], /geometry/pivot_depth [m], "
-            "/geometry/blocks/1/offset [m], /geometry/blocks/0/thickness [m], "
-            "/geometry/blocks/1/thickness [m], /faults/1/dip_from_vertical [deg]");
-  EXPECT_EQ(line(campaign.samples, 1), "2100, 2300, 2200, 50, 180, 150, 13.3");
-  EXPECT_EQ(line(campaign.samples, 2), "2250.5, 2450.5, 2350.5, 100, 190, 260, -5");
+  EXPECT_EQ(
+      line(campaign.samples, 0),
+      "pillar, /geometry/layers/2/top [m], /geometry/layers/3/top [m], /geometry/pivot_depth [m], "
+      "/geometry/blocks/1/offset [m], /geometry/blocks/0/thickness [m], "
+      "/geometry/blocks/1/thickness [m], /faults/1/dip_from_vertical [deg]");
+  EXPECT_EQ(line(campaign.samples, 1), "P0, 2100, 2300, 2200, 50, 180, 150, 13.3");
+  EXPECT_EQ(line(campaign.samples, 2), "P1, 2250.5, 2450.5, 2350.5, 100, 190, 260, -5");
   // The panel reaches from the shallower top to the deeper base: 2250.5 to 2250.5 + 100 + 260.
-  EXPECT_EQ(line(campaign.places, 2), "P1,F,pillar,1000,2000,0,-5,2250.5,2610.5");
+  EXPECT_EQ(line(campaign.places, 2), "P1,F,pillar,1000,2000,0,-5,2250.5,2610.5,,");
   const auto spec = nlohmann::json::parse(campaign.spec);
   EXPECT_EQ(spec["base"], "section.json");
+  EXPECT_EQ(spec["design"]["kind"], "places");
   EXPECT_EQ(spec["design"]["file"], "samples.csv");
+  EXPECT_EQ(spec["design"]["names"], "pillar");
+  EXPECT_EQ(spec["name"], "test");
+  EXPECT_EQ(spec["set"]["/numerics/activation_tolerance"], "0.1 bar");
   EXPECT_EQ(spec["set"]["/numerics/plane_strain"], "on");
 }
 
@@ -104,9 +121,10 @@ TEST(PillarCampaign, RatiosFollowTheStrikeInTheRegionalStress) {
   const RegionalStress stress{160, 0.83, 0.72};
   const PillarCampaign campaign =
       campaign_of(table_of({{Role::azimuth, {160, 70, 115, 340}}}), stress);
-  EXPECT_EQ(line(campaign.samples, 0), "/initial_state/ratio_across, /initial_state/ratio_along");
+  EXPECT_EQ(line(campaign.samples, 0),
+            "pillar, /initial_state/ratio_across, /initial_state/ratio_along");
   const auto ratios = [&](int pillar) {
-    std::istringstream stream(line(campaign.samples, pillar + 1));
+    std::istringstream stream(line(campaign.samples, pillar + 1).substr(3));  // "P0,"
     double across = 0, along = 0;
     char comma = 0;
     stream >> across >> comma >> along;
@@ -124,27 +142,35 @@ TEST(PillarCampaign, RatiosFollowTheStrikeInTheRegionalStress) {
 }
 
 TEST(PillarCampaign, LeavesOutWhatCannotBeModelledInTheWordsOfTheScene) {
-  const PillarCampaign campaign = campaign_of(table_of({{Role::depth, {1400, 2100, 2100, 2100}},
-                                                        {Role::dip, {0, 50, 0, 0}},
-                                                        {Role::offset, {0, 0, 2700, 10}}}));
+  PillarTable table = table_of({{Role::depth, {1400, 2100, 2100, 2100}},
+                                {Role::dip, {0, 50, 0, 0}},
+                                {Role::offset, {0, 0, 2700, 10}}});
+  table.headings = {{Role::depth, "TOP"}, {Role::dip, "DIP"}, {Role::offset, "THROW"}};
+  const PillarCampaign campaign = campaign_of(table);
   EXPECT_EQ(campaign.n_cases, 1u);
   ASSERT_EQ(campaign.refused.size(), 3u);
   EXPECT_EQ(campaign.refused[0].id, "P0");
-  EXPECT_NE(campaign.refused[0].problem.what.find("is not below that of \"salt\""),
-            std::string::npos)
-      << campaign.refused[0].problem.what;
-  EXPECT_EQ(campaign.refused[1].problem.pointer, "/faults/1/dip_from_vertical");
-  EXPECT_EQ(campaign.refused[2].problem.pointer, "/geometry/blocks/1/offset");
+  const auto problem = [&](std::size_t k) { return campaign.refused[k].problems.at(0); };
+  EXPECT_NE(problem(0).what.find("is not below that of \"salt\""), std::string::npos)
+      << problem(0).what;
+  // By the column, as the table calls it.
+  EXPECT_EQ(problem(0).pointer, "TOP");
+  EXPECT_EQ(problem(1).pointer, "DIP");
+  EXPECT_EQ(problem(2).pointer, "THROW");
   EXPECT_EQ(campaign.refused[2].line, 4);
-  EXPECT_EQ(line(campaign.places, 1).substr(0, 3), "P3,");
+  EXPECT_EQ(problem(2).line, 4);
+  EXPECT_EQ(line(campaign.places, 1).substr(0, 3), "P0,");
+  EXPECT_NE(line(campaign.places, 1).find("is not below that of"), std::string::npos);
+  EXPECT_EQ(line(campaign.places, 4).substr(0, 3), "P3,");
+  EXPECT_EQ(line(campaign.samples, 1).substr(0, 3), "P3,");
 }
 
 TEST(PillarCampaign, OtherColumnsAreParametersOfTheScene) {
   PillarTable table = table_of({{Role::offset, {10, 20}}});
-  table.parameters = {{"friction_angle", "deg", {20, 25}}};
-  EXPECT_EQ(line(campaign_of(table).samples, 2), "20, 25");
+  table.parameters = {{"friction_angle", "deg", {20, 25}, "PHI"}};
+  EXPECT_EQ(line(campaign_of(table).samples, 2), "P1, 20, 25");
   EXPECT_NE(line(campaign_of(table).samples, 0).find("friction_angle [deg]"), std::string::npos);
-  table.parameters = {{"frictoin_angle", "deg", {20, 25}}};
+  table.parameters = {{"frictoin_angle", "deg", {20, 25}, "PHI"}};
   EXPECT_THROW(campaign_of(table), faultsim::InputError);
   table.parameters.clear();
   table.numbers.erase(Role::offset);
@@ -181,7 +207,9 @@ class PillarsInAField : public ::testing::Test {
   static std::array<double, 3> placement(const PillarCampaign& campaign, int pillar) {
     std::istringstream stream(line(campaign.samples, pillar + 1));
     std::vector<double> values;
-    for (std::string cell; std::getline(stream, cell, ',');) values.push_back(std::stod(cell));
+    std::string cell;
+    std::getline(stream, cell, ',');  // its name
+    while (std::getline(stream, cell, ',')) values.push_back(std::stod(cell));
     const std::size_t n = values.size();
     return {values[n - 3], values[n - 2], values[n - 1]};
   }
@@ -225,13 +253,36 @@ TEST_F(PillarsInAField, MayHaveAMapOfTheirOwn) {
 }
 
 TEST_F(PillarsInAField, AreRefusedOutsideOfIt) {
-  const PillarCampaign campaign =
-      of({{Role::x, {200000, 300000}}, {Role::y, {500000, 500000}}, {Role::azimuth, {0, 0}}});
+  PillarTable table =
+      table_of({{Role::x, {200000, 300000}}, {Role::y, {500000, 500000}}, {Role::azimuth, {0, 0}}});
+  table.headings = {{Role::x, "X_RD"}, {Role::y, "Y_RD"}};
+  const PillarCampaign campaign = make_pillar_campaign(table, base_, "section.json", "test", {});
   EXPECT_EQ(campaign.n_cases, 1u);
   ASSERT_EQ(campaign.refused.size(), 1u);
   EXPECT_EQ(campaign.refused[0].id, "P1");
-  EXPECT_NE(campaign.refused[0].problem.what.find("no flow cell lies in a compartment"),
+  EXPECT_EQ(campaign.refused[0].problems[0].pointer, "X_RD, Y_RD");
+  EXPECT_EQ(campaign.refused[0].problems[0].cure.find("leave the pillar out, or"), 0u);
+  EXPECT_NE(campaign.refused[0].problems[0].what.find("no flow cell lies in a compartment"),
             std::string::npos);
+}
+
+/// A history of its own, which ends at a date; the map knows when it began.
+TEST_F(PillarsInAField, EndAtDatesOfTheirOwn) {
+  PillarTable table = table_of({{Role::x, {200000, 200000, 200000}},
+                                {Role::y, {500000, 500000, 500000}},
+                                {Role::azimuth, {0, 0, 0}}});
+  table.until = {"1995-01-01", "2000-01-01", "1985-01-01"};
+  table.headings[Role::until] = "LAST";
+  const PillarCampaign campaign = make_pillar_campaign(table, base_, "section.json", "test", {});
+  EXPECT_EQ(campaign.n_cases, 2u);
+  EXPECT_EQ(line(campaign.samples, 0).substr(0, 31), "pillar, /stages/0/until [date],");
+  EXPECT_EQ(line(campaign.samples, 1).substr(0, 15), "P0, 1995-01-01,");
+  ASSERT_EQ(campaign.refused.size(), 1u);
+  EXPECT_EQ(campaign.refused[0].problems[0].pointer, "LAST");
+  EXPECT_EQ(line(campaign.places, 1), "P0,F,pillar,200000,500000,0,0,2000,2200,1990-01-01,");
+  base_.value["stages"] = {{{"name", "production"}, {"duration", "10 year"}}};
+  EXPECT_THROW(make_pillar_campaign(table, base_, "section.json", "test", {}),
+               faultsim::InputError);
 }
 
 TEST_F(PillarsInAField, NeedTheirStrike) {

@@ -65,7 +65,7 @@ TEST(PillarTable, NamesMapTheColumnsOfOthers) {
 
 TEST(PillarTable, SaysAllThatIsWrongAtOnce) {
   EXPECT_EQ(problems_of("x [m], y [m], offset [m], id\n1, 2, deep, A\n1, 2\n1, 2, 3, A\n"),
-            (Lines{"3: has 2 values for 4 columns", "4: pillar \"A\" was there before"}));
+            (Lines{"3: has 2 values for 4 columns"}));
   EXPECT_EQ(problems_of("x, y [m], y [m]\n"),
             (Lines{"1: column 1 \"x\" has no unit in brackets", "1: \"y\" has two columns"}));
   EXPECT_EQ(problems_of("y [m]\n"), (Lines{"1: there is no column \"x\""}));
@@ -91,12 +91,37 @@ TEST(PillarTable, RefusesAPillarWithoutANumberAlone) {
   EXPECT_EQ(table.parameters[0].values, std::vector<double>{0.9});
   ASSERT_EQ(table.refused.size(), 3U);
   EXPECT_EQ(table.refused[0].id, "A");
-  EXPECT_EQ(table.refused[0].problem.line, 2);
-  EXPECT_EQ(table.refused[0].problem.pointer, "offset");
-  EXPECT_EQ(table.refused[0].problem.what, "\"nan\" in column 4 \"offset\" is not a number");
-  EXPECT_EQ(table.refused[1].problem.what, "column 4 \"offset\" is empty");
-  EXPECT_EQ(table.refused[2].problem.what,
-            "\"1e9\" in column 2 \"x [m]\" is not within -10000 km to 10000 km");
+  EXPECT_EQ(table.refused[0].line, 2);
+  EXPECT_EQ(table.refused[0].numbers.at(Role::y), 2);
+  EXPECT_FALSE(table.refused[0].numbers.contains(Role::offset));
+  const auto whats = [&](std::size_t k) {
+    Lines lines;
+    for (const faultsim::Problem& one : table.refused[k].problems)
+      lines.push_back(one.pointer + ": " + one.what);
+    return lines;
+  };
+  // All that is wrong with a line.
+  EXPECT_EQ(whats(0), Lines{"offset: \"nan\" in column 4 \"offset\" is not a number"});
+  EXPECT_EQ(whats(1), (Lines{"offset: column 4 \"offset\" is empty",
+                             "biot: \"x\" in column 5 \"biot\" is not a number"}));
+  EXPECT_EQ(whats(2), (Lines{"x: \"1e9\" in column 2 \"x [m]\" is not within -10000 km to 10000 km",
+                             "offset: \"0x10\" in column 4 \"offset\" is not a number"}));
+}
+
+TEST(PillarTable, RefusesTheSecondOfAnIdAndADateThatIsNoneAlone) {
+  const PillarTable table = read(
+      "id, x [m], y [m], last\nA, 1, 2, 1990-01-31\nA, 1, 2, 1991-01-31\nB, 1, 2, 31-01-1990\n"
+      "C, 1, 2, 1992-02-29\n",
+      {{"id", "id"}, {"x", "x [m]"}, {"y", "y [m]"}, {"until", "last"}});
+  EXPECT_EQ(table.ids, (Lines{"A", "C"}));
+  EXPECT_EQ(table.until, (Lines{"1990-01-31", "1992-02-29"}));
+  EXPECT_EQ(table.heading(Role::until), "last");
+  ASSERT_EQ(table.refused.size(), 2U);
+  EXPECT_EQ(table.refused[0].line, 3);
+  EXPECT_EQ(table.refused[0].problems.at(0).what, "pillar \"A\" was there before");
+  EXPECT_EQ(table.refused[0].problems.at(0).pointer, "id");
+  EXPECT_EQ(table.refused[1].problems.at(0).what,
+            "\"31-01-1990\" in column 4 \"last\" is not a date");
 }
 
 TEST(PillarTable, TakesQuotedCellsWhole) {
