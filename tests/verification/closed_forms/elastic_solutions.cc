@@ -58,22 +58,31 @@ double geertsma_centre_displacement(const GeertsmaDisc& disc) {
   return geertsma_scale(disc) * (1 - c / std::sqrt(1 + c * c));
 }
 
-FaultStressChange displaced_fault_stress(const DisplacedReservoir& reservoir, double y) {
+FaultBlocks blocks_of(const DisplacedReservoir& reservoir) {
   const double a = (reservoir.thickness - reservoir.offset) / 2;
   const double b = (reservoir.thickness + reservoir.offset) / 2;
+  return {-b, a, -a, b};
+}
+
+FaultStressChange displaced_fault_stress(const DisplacedReservoir& reservoir,
+                                         const FaultBlocks& blocks, double y) {
   const double s = std::sin(reservoir.dip), c = std::cos(reservoir.dip);
   const double gamma = horizontal_stress_ratio(reservoir.poisson_ratio, reservoir.biot);
-  const auto add = [&](FaultStressChange& sum, double pressure_change, bool touches,
-                       double log_term) {
+  FaultStressChange sum{0, 0};
+  const auto add = [&](double pressure_change, double base, double top, double side) {
     const double amplitude = gamma * pressure_change;
-    const double half = touches ? 0.5 : 0;
+    const double half = y > base && y < top ? 0.5 : 0;
+    const double log_term = side * std::log(std::abs((y - top) / (y - base)));
     sum.normal -= amplitude * (s * s * half + s * c / (2 * pi) * log_term);
     sum.shear += amplitude * (s * s / (2 * pi) * log_term - s * c * half);
   };
-  FaultStressChange sum{0, 0};
-  add(sum, reservoir.left_pressure_change, y > -b && y < a, std::log(std::abs((y - a) / (y + b))));
-  add(sum, reservoir.right_pressure_change, y > -a && y < b, std::log(std::abs((y + a) / (y - b))));
+  add(reservoir.left_pressure_change, blocks.left_base, blocks.left_top, 1);
+  add(reservoir.right_pressure_change, blocks.right_base, blocks.right_top, -1);
   return sum;
+}
+
+FaultStressChange displaced_fault_stress(const DisplacedReservoir& reservoir, double y) {
+  return displaced_fault_stress(reservoir, blocks_of(reservoir), y);
 }
 
 double frictionless_slip(const DisplacedReservoir& reservoir, double y) {
@@ -101,13 +110,18 @@ struct SlipProblem {
   Eigen::MatrixXd stiffness;  ///< Pa/m: shear traction = shear − stiffness · slip
 };
 
-/// Element ends on [−b, b]; ±a are among them, so that the peaks there lie between element centres.
-std::vector<double> element_ends(const DisplacedReservoir& reservoir, double element_height) {
-  const double a = std::abs(reservoir.thickness - reservoir.offset) / 2;
-  const double b = (reservoir.thickness + reservoir.offset) / 2;
-  std::vector<double> ends = {-b};
-  const double pieces[] = {-b, -a, a, b};
-  for (int p = 0; p < 3; ++p) {
+/// Element ends; those of the blocks are among them, so that the peaks there lie between element
+/// centres.
+std::vector<double> element_ends(const FaultBlocks& blocks, double beyond, double element_height) {
+  std::vector<double> pieces = {blocks.left_base, blocks.left_top, blocks.right_base,
+                                blocks.right_top};
+  std::sort(pieces.begin(), pieces.end());
+  if (beyond > 0) {
+    pieces.insert(pieces.begin(), pieces.front() - beyond);
+    pieces.push_back(pieces.back() + beyond);
+  }
+  std::vector<double> ends = {pieces.front()};
+  for (std::size_t p = 0; p + 1 < pieces.size(); ++p) {
     const double height = pieces[p + 1] - pieces[p];
     const int n = static_cast<int>(std::ceil(height / element_height - 1e-9));
     for (int i = 1; i <= n; ++i) ends.push_back(pieces[p] + height * i / n);
@@ -118,7 +132,8 @@ std::vector<double> element_ends(const DisplacedReservoir& reservoir, double ele
 SlipProblem slip_problem(const SlippingFault& fault, double element_height) {
   const DisplacedReservoir& reservoir = fault.reservoir;
   const double sine = std::sin(reservoir.dip);
-  const std::vector<double> ends = element_ends(reservoir, element_height);
+  const FaultBlocks blocks = fault.blocks.value_or(blocks_of(reservoir));
+  const std::vector<double> ends = element_ends(blocks, fault.beyond, element_height);
   const auto n = static_cast<Eigen::Index>(ends.size()) - 1;
   SlipProblem problem{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n),
                       Eigen::VectorXd(n), Eigen::MatrixXd(n, n)};
@@ -127,9 +142,11 @@ SlipProblem slip_problem(const SlippingFault& fault, double element_height) {
     const auto k = static_cast<std::size_t>(i);
     const double y = (ends[k] + ends[k + 1]) / 2;
     const FaultStressChange initial = initial_fault_traction(fault, y);
-    const FaultStressChange change = displaced_fault_stress(reservoir, y);
+    const FaultStressChange change = displaced_fault_stress(reservoir, blocks, y);
+    const bool depleted = (y > blocks.left_base && y < blocks.left_top) ||
+                          (y > blocks.right_base && y < blocks.right_top);
     const double pressure =
-        fault.pressure + fault.pressure_gradient * y + fault.fault_pressure_change;
+        fault.pressure + fault.pressure_gradient * y + (depleted ? fault.fault_pressure_change : 0);
     problem.y[i] = y;
     problem.length[i] = (ends[k + 1] - ends[k]) / sine;
     problem.shear[i] = initial.shear + change.shear;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 /// Closed forms of linear elasticity and poroelasticity that `faultsim verify` compares with. They
@@ -52,6 +53,13 @@ struct DisplacedReservoir {
   double left_pressure_change;   ///< Pa
   double right_pressure_change;  ///< Pa
 };
+/// The heights between which the blocks lie beside the fault: −b to a and −a to b of a displaced
+/// reservoir; others where the walls differ in thickness, or the throw exceeds them.
+struct FaultBlocks {
+  double left_base, left_top, right_base, right_top;  ///< y, m
+};
+FaultBlocks blocks_of(const DisplacedReservoir& reservoir);
+
 struct FaultStressChange {
   double normal;  ///< Δσ_n, Pa
   double shear;   ///< Δτ, Pa, along d
@@ -60,6 +68,10 @@ struct FaultStressChange {
 /// −A [S² χ_B/2 + (SC/2π) L_B] and A [(S²/2π) L_B − SC χ_B/2], A = αΔp(1−2ν)/(1−ν),
 /// L_left = ln|(y−a)/(y+b)|, L_right = ln|(y+a)/(y−b)|. Infinite at ±a, ±b.
 FaultStressChange displaced_fault_stress(const DisplacedReservoir& reservoir, double y);
+/// The same beside any two blocks: L_left = ln|(y − top)/(y − base)|, L_right with the other sign.
+/// @param reservoir  its rock, dip and pressures.
+FaultStressChange displaced_fault_stress(const DisplacedReservoir& reservoir,
+                                         const FaultBlocks& blocks, double y);
 
 /// Slip plateau for |y| < a of a vertical frictionless fault: α(1−2ν)|Δp|(b−a)/G, m; it falls
 /// linearly to zero at ±b.
@@ -75,8 +87,11 @@ struct SlippingFault {
   double stress_ratio;              ///< σ'_h / σ'_v
   double initial_biot;              ///< α_0
   double fault_biot;                ///< α_f
-  double fault_pressure_change;     ///< Δp_f for |y| < b, Pa
+  double fault_pressure_change;     ///< Δp_f where either side is depleted, Pa
   double friction_coefficient;      ///< μ, cohesion 0
+  /// In place of those of thickness and offset.
+  std::optional<FaultBlocks> blocks = std::nullopt;
+  double beyond = 0;  ///< m of height above and below the blocks in which it may slip too.
 };
 /// Initial total tractions of the fault at height y.
 FaultStressChange initial_fault_traction(const SlippingFault& fault, double y);
@@ -89,7 +104,8 @@ struct SlipProfile {
   double max_slip_y = 0;     ///< m, where
   double integral = 0;       ///< ∫|slip| ds along dip, m2
 };
-/// Constant-slip elements of at most the given height on |y| < b in a full space. A straight
+/// Constant-slip elements of at most the given height, from the lowest base to the highest top and
+/// `beyond`, in a full space. A straight
 /// fault's slip changes only its shear traction: element j with ends e_j, e_{j+1} along dip by
 /// −G/(2π(1−ν)) δ_j [1/(s−e_j) − 1/(s−e_{j+1})] (edge dislocations at its ends), so Coulomb
 /// friction is a linear complementarity problem, solved by an active set. First order in the
