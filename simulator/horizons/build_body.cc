@@ -177,6 +177,7 @@ BuiltBody build_body(const LayeredBody& body, const std::string& source) {
   mesh.boundary = boundary_of(body, plan);
   built.n_extra_nodes = columns.extra_nodes.size();
   built.n_snapped = plan.levels.n_snapped;
+  built.throws = found_throws(body, plan.map, plan.sides, plan.cut, plan.levels);
   measure(built, source);
   return built;
 }

@@ -61,17 +61,24 @@ Problem not_apart(const std::string& pointer, const Compartment& one, const Comp
 
 }  // namespace
 
+int place_at(const MapMesh& map, const CutMap& cut, int triangle, int vertex) {
+  return cut.places[triangle][corner_at(map.triangles[triangle], vertex)];
+}
+
 CutMap cut_map(const MapMesh& map) {
   const std::vector<MapSide> sides = sides_of(map.triangles);
-  const std::vector<const MapSide*> traces =
-      sides_on_lines(map, sides, static_cast<std::size_t>(map.n_faults));
+  return cut_map(map, sides, sides_on_lines(map, sides, static_cast<std::size_t>(map.n_faults)));
+}
+
+CutMap cut_map(const MapMesh& map, const std::vector<MapSide>& sides,
+               const std::vector<const MapSide*>& along) {
   // Corners of triangles are one place where triangles share a side that is no trace.
   JoinedSets corners(3 * map.triangles.size());
   const auto corner = [&](int triangle, int vertex) {
     return 3 * triangle + static_cast<int>(corner_at(map.triangles[triangle], vertex));
   };
   for (const MapSide& side : sides) {
-    if (side.left < 0 || side.right < 0 || std::ranges::binary_search(traces, &side)) continue;
+    if (side.left < 0 || side.right < 0 || std::ranges::binary_search(along, &side)) continue;
     for (const int v : {side.a, side.b}) corners.join(corner(side.left, v), corner(side.right, v));
   }
   CutMap cut;
@@ -100,14 +107,22 @@ std::vector<TracePiece> trace_pieces(const MapMesh& map, const std::vector<MapSi
   return pieces;
 }
 
+std::vector<int> parts_of(const MapMesh& map, const std::vector<MapSide>& sides,
+                          const std::vector<const MapSide*>& walls) {
+  JoinedSets sets(map.triangles.size());
+  for (const MapSide& side : sides)
+    if (side.left >= 0 && side.right >= 0 && !std::ranges::binary_search(walls, &side))
+      sets.join(side.left, side.right);
+  std::vector<int> parts;
+  for (std::size_t t = 0; t < map.triangles.size(); ++t)
+    parts.push_back(sets.first(static_cast<int>(t)));
+  return parts;
+}
+
 std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compartment>& compartments,
                                    std::vector<Problem>& problems) {
   const std::vector<MapSide> sides = sides_of(map.triangles);
-  const std::vector<const MapSide*> walls = sides_on_lines(map, sides, map.lines.size());
-  JoinedSets parts(map.triangles.size());
-  for (const MapSide& side : sides)
-    if (side.left >= 0 && side.right >= 0 && !std::ranges::binary_search(walls, &side))
-      parts.join(side.left, side.right);
+  const std::vector<int> parts = parts_of(map, sides, sides_on_lines(map, sides, map.lines.size()));
   std::vector<int> owner(map.triangles.size(), -1);
   for (std::size_t c = 0; c < compartments.size(); ++c) {
     const Compartment& one = compartments[c];
@@ -120,13 +135,12 @@ std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compart
                           "give a point of the compartment"});
       continue;
     }
-    int& part = owner[parts.first(triangle)];
+    int& part = owner[parts[triangle]];
     if (part >= 0) problems.push_back(not_apart(pointer, one, compartments[part]));
     part = static_cast<int>(c);
   }
   std::vector<int> filled(map.triangles.size());
-  for (std::size_t t = 0; t < filled.size(); ++t)
-    filled[t] = owner[parts.first(static_cast<int>(t))];
+  for (std::size_t t = 0; t < filled.size(); ++t) filled[t] = owner[parts[t]];
   return filled;
 }
 

@@ -17,7 +17,14 @@ struct CutMap {
   std::size_t n_places() const { return vertex.size(); }
 };
 
+/// The place of a triangle at one of its vertices.
+int place_at(const MapMesh& map, const CutMap& cut, int triangle, int vertex);
+
+/// Along all faults.
 CutMap cut_map(const MapMesh& map);
+/// Along some sides only, ascending.
+CutMap cut_map(const MapMesh& map, const std::vector<MapSide>& sides,
+               const std::vector<const MapSide*>& along);
 
 /// A piece of a fault's trace between two neighbours along it.
 struct TracePiece {
@@ -28,6 +35,11 @@ struct TracePiece {
 
 /// All pieces of all faults' traces. The sides must outlive them.
 std::vector<TracePiece> trace_pieces(const MapMesh& map, const std::vector<MapSide>& sides);
+
+/// Per triangle a number that is the same in triangles which are connected without crossing a wall.
+/// @param walls  some of the sides, ascending.
+std::vector<int> parts_of(const MapMesh& map, const std::vector<MapSide>& sides,
+                          const std::vector<const MapSide*>& walls);
 
 /// Per triangle the compartment it belongs to, or −1: filled from the point inside of each, up to
 /// faults, dividers and the box. Points outside of the map, and two in one part of it, are appended

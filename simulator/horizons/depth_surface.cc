@@ -135,20 +135,21 @@ void PointSurface::sort_into_bins() {
   }
 }
 
-double PointSurface::on_edge(const Vector2d& place) const {
-  double nearest = std::numeric_limits<double>::infinity(), z = 0;
+PointSupport PointSurface::on_edge(const Vector2d& place) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  PointSupport support{{0, -1, -1}, {1, 0, 0}};
   for (const auto& [a, b] : edge_) {
     const Vector2d p = points_[a].head<2>(), q = points_[b].head<2>();
     const double part = nearest_part(p, q, place);
     const double away = (p + part * (q - p) - place).squaredNorm();
     if (away >= nearest) continue;
     nearest = away;
-    z = (1 - part) * points_[a].z() + part * points_[b].z();
+    support = {{a, b, -1}, {1 - part, part, 0}, std::sqrt(away)};
   }
-  return z;
+  return support;
 }
 
-double PointSurface::at(const Vector2d& place) const {
+PointSupport PointSurface::support_at(const Vector2d& place) const {
   const Vector2d bin = (place - low_).cwiseQuotient(bin_size_);
   if (bin.minCoeff() < 0 || bin.maxCoeff() > n_bins_) return on_edge(place);
   const int i = std::min(static_cast<int>(bin.x()), n_bins_ - 1);
@@ -162,10 +163,17 @@ double PointSurface::at(const Vector2d& place) const {
     const double b = cross_of(corner(0), place, corner(2)) / all;
     constexpr double kOnSide = -1e-9;
     if (std::min({a, b, 1 - a - b}) < kOnSide) continue;
-    return a * points_[triangles_[t][0]].z() + b * points_[triangles_[t][1]].z() +
-           (1 - a - b) * points_[triangles_[t][2]].z();
+    return {triangles_[t], {a, b, 1 - a - b}};
   }
   return on_edge(place);
+}
+
+double PointSurface::at(const Vector2d& place) const {
+  const PointSupport support = support_at(place);
+  double z = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (support.corner[k] >= 0) z += support.weight[k] * points_[support.corner[k]].z();
+  return z;
 }
 
 DepthSurface::DepthSurface(const DepthOverMap& depth, const std::string& pointer,

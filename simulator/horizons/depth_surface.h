@@ -11,16 +11,26 @@
 
 namespace faultsim::horizons {
 
+/// What a depth between points comes from.
+struct PointSupport {
+  std::array<int, 3> corner;     ///< points of the surface; −1: none.
+  std::array<double, 3> weight;  ///< sum 1.
+  double away = 0;               ///< outside: how far away the edge is, m.
+};
+
 /// Scattered depths, ready to be looked up.
 class PointSurface {
  public:
   /// @pre at least one point; those at one place agree.
   explicit PointSurface(std::vector<Eigen::Vector3d> points);
   double at(const Eigen::Vector2d& place) const;
+  PointSupport support_at(const Eigen::Vector2d& place) const;
+  /// In an order of its own.
+  const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
  private:
   void sort_into_bins();
-  double on_edge(const Eigen::Vector2d& place) const;
+  PointSupport on_edge(const Eigen::Vector2d& place) const;
 
   std::vector<Eigen::Vector3d> points_;
   Triangles triangles_;
@@ -40,6 +50,8 @@ class DepthSurface {
                std::vector<Problem>& problems);
   /// m; finite everywhere.
   double at(const Eigen::Vector2d& place) const;
+  /// Of scattered points, else null.
+  const PointSurface* scattered() const { return scattered_.get(); }
 
  private:
   DepthOverMap depth_;

@@ -36,6 +36,9 @@ struct GridDepth {
 /// Depths at scattered points: linear on their Delaunay triangulation, and outside of it as at the
 /// nearest place of its edge. Points at one place must agree. One point is a constant; points on
 /// one line are linear along it and constant across.
+///
+/// Where a fault has no throw of its own the points have it: they are interpolated on either side
+/// by themselves (SidedHorizon). Each closed part of the map needs a point then.
 struct PointDepth {
   std::vector<Eigen::Vector3d> points;
 };
@@ -112,7 +115,8 @@ struct LayeredFault {
   std::vector<DipPoint> listric;      ///< from top to bottom or back; empty: `dip` holds.
   std::optional<double> top;          ///< where it ends upwards; empty: at the top of the box.
   std::optional<double> bottom;       ///< where it ends downwards; empty: at the base.
-  std::optional<FaultThrow> moved;    ///< empty: horizons of points say it.
+  /// Empty: what the points of horizons say; horizons given otherwise go on across the fault.
+  std::optional<FaultThrow> moved;
 };
 
 /// Sizes of cells, m: at the faults `at_faults` and beside them `growth` per metre more, up to

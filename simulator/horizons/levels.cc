@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/horizons/meet_pillar.h"
+#include "simulator/horizons/sided_horizon.h"
 #include "simulator/horizons/snapping.h"
 #include "simulator/horizons/throws.h"
 
@@ -11,26 +13,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-
-/// Where z = horizon(x(v, z)) + shift(z), by bisection; horizons are less steep than pillars.
-template <typename Above>
-double meet_pillar(double low, double high, const Above& above) {
-  constexpr int kHalvings = 200;
-  double at_low = above(low), at_high = above(high);
-  if (at_low >= 0) return low;
-  if (at_high <= 0) return high;
-  for (int k = 0; k < kHalvings; ++k) {
-    // Secant steps first, which are exact on planes; then halves.
-    const double secant = low - at_low * (high - low) / (at_high - at_low);
-    const double z = k % 3 < 2 && secant > low && secant < high ? secant : (low + high) / 2;
-    const double there = above(z);
-    if (there == 0 || z == low || z == high) return z;
-    (there < 0 ? low : high) = z;
-    (there < 0 ? at_low : at_high) = there;
-    if (high - low < 1e-9) break;
-  }
-  return low - at_low * (high - low) / (at_high - at_low);
-}
 
 class LevelFinder {
  public:
@@ -47,7 +29,12 @@ class LevelFinder {
   Levels run();
 
  private:
-  double depth_of(std::size_t horizon, std::size_t place, const MatrixXd& throws) const;
+  double shift_of(std::size_t place, const MatrixXd& throws, double before) const;
+  double meet(const SidedHorizon::Surface& surface, std::size_t place,
+              const MatrixXd& throws) const;
+  void find_depths(std::size_t horizon, const MatrixXd& throws);
+  void find_sided_depths(const SidedHorizon& sided, const MatrixXd& throws);
+  void find_all_depths();
   void check_order();
   void check_beyond_ends();
   void complain(const std::string& pointer, const std::string& what, int vertex, double z,
@@ -66,19 +53,67 @@ class LevelFinder {
   Levels levels_;
 };
 
-double LevelFinder::depth_of(std::size_t horizon, std::size_t place, const MatrixXd& throws) const {
-  const int vertex = cut_.vertex[place];
+double LevelFinder::shift_of(std::size_t place, const MatrixXd& throws, double before) const {
+  double shift = 0;
+  for (int f = 0; f < map_.n_faults; ++f)
+    if (throws(static_cast<Eigen::Index>(place), f) != 0)
+      shift +=
+          throws(static_cast<Eigen::Index>(place), f) * throw_in_depth(body_.faults[f], before);
+  return shift;
+}
+
+/// Where a place's pillar meets a surface: the depth that it had, of which the throw in depth is a
+/// function, and then where it lies now.
+double LevelFinder::meet(const SidedHorizon::Surface& surface, std::size_t place,
+                         const MatrixXd& throws) const {
   const double reach = body_.top - body_.base;
-  // The depth that it had, of which the throw in depth is a function, and then where it lies now.
   return meet_pillar(body_.base - reach, body_.top + reach, [&](double z) {
-    const double before = horizons_[horizon].at(pillars_.in_map(vertex, z));
-    double moved = before;
-    for (int f = 0; f < map_.n_faults; ++f)
-      if (throws(static_cast<Eigen::Index>(place), f) != 0)
-        moved +=
-            throws(static_cast<Eigen::Index>(place), f) * throw_in_depth(body_.faults[f], before);
-    return z - moved;
+    const double before = surface(pillars_.in_map(cut_.vertex[place], z));
+    return z - (before + shift_of(place, throws, before));
   });
+}
+
+void LevelFinder::find_depths(std::size_t horizon, const MatrixXd& throws) {
+  const SidedHorizon::Surface surface = [&](const Eigen::Vector2d& xy) {
+    return horizons_[horizon].at(xy);
+  };
+  for (std::size_t p = 0; p < cut_.n_places(); ++p)
+    levels_.horizons[p].push_back(meet(surface, p, throws));
+}
+
+void LevelFinder::find_sided_depths(const SidedHorizon& sided, const MatrixXd& throws) {
+  std::vector<int> own(cut_.n_places());
+  for (std::size_t t = 0; t < map_.triangles.size(); ++t)
+    for (std::size_t v = 0; v < 3; ++v) own[cut_.places[t][v]] = sided.cut().places[t][v];
+  for (std::size_t p = 0; p < cut_.n_places(); ++p) {
+    const bool is_moved = !throws.row(static_cast<Eigen::Index>(p)).isZero(0);
+    const double z = is_moved ? sided.depth(own[p],
+                                            [&](const SidedHorizon::Surface& surface) {
+                                              return meet(surface, p, throws);
+                                            })
+                              : sided.depth(own[p]);
+    levels_.horizons[p].push_back(z);
+  }
+}
+
+/// Of all horizons; those of points on sides of their own where a fault has no throw.
+void LevelFinder::find_all_depths() {
+  const MatrixXd throws = throw_fields(body_, map_, cut_);
+  levels_.horizons.resize(cut_.n_places());
+  const std::vector<MapSide> sides = sides_of(map_.triangles);
+  const MapLocator locator(body_, map_, sides, pillars_);
+  const bool has_sides =
+      std::ranges::any_of(body_.faults, [](const LayeredFault& fault) { return !fault.moved; });
+  for (std::size_t k = 0; k < horizons_.size(); ++k) {
+    const PointSurface* points = horizons_[k].scattered();
+    if (points == nullptr || !has_sides) {
+      find_depths(k, throws);
+      continue;
+    }
+    const SidedHorizon sided({body_, map_, sides, pillars_, locator}, static_cast<int>(k), *points,
+                             problems_);
+    if (problems_.empty()) find_sided_depths(sided, throws);
+  }
 }
 
 void LevelFinder::check_order() {
@@ -131,11 +166,8 @@ void LevelFinder::check_beyond_ends() {
 }
 
 Levels LevelFinder::run() {
-  const MatrixXd throws = throw_fields(body_, map_, cut_);
-  levels_.horizons.resize(cut_.n_places());
-  for (std::size_t p = 0; p < cut_.n_places(); ++p)
-    for (std::size_t k = 0; k < body_.horizons.size(); ++k)
-      levels_.horizons[p].push_back(depth_of(k, p, throws));
+  find_all_depths();
+  if (!problems_.empty()) return std::move(levels_);
   for (int f = 0; f < map_.n_faults; ++f) {
     const LayeredFault& fault = body_.faults[f];
     levels_.bottom.emplace_back(map_.lines[f].size(), fault.bottom.value_or(body_.base));

@@ -17,7 +17,8 @@ struct Levels {
   int n_snapped = 0;  ///< depths that have been joined to those of another side.
 };
 
-/// Where horizons meet pillars, shifted by throws.
+/// Where horizons meet pillars, shifted by throws; those of points on sides of their own where a
+/// fault has no throw (SidedHorizon).
 ///
 /// Horizons that touch or cross, or leave the box, are appended to problems with the worst place;
 /// so is a throw that goes on above or below the end of its fault. Depths on one pillar that come

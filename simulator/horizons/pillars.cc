@@ -279,6 +279,18 @@ Vector2d Pillars::in_map(int vertex, double z) const {
   return at;
 }
 
+std::vector<double> Pillars::shifts_at(double z) const {
+  std::vector<double> shifts;
+  for (const FaultShift& shift : shifts_) shifts.push_back(shift.at(z));
+  return shifts;
+}
+
+Vector2d Pillars::in_map(int vertex, const std::vector<double>& shifts) const {
+  Vector2d at = vertices_[vertex];
+  for (std::size_t f = 0; f < shifts.size(); ++f) at += w_[f][vertex] * shifts[f];
+  return at;
+}
+
 Vector3d Pillars::at(int vertex, double z) const {
   const Vector2d place = in_map(vertex, z);
   return {place.x(), place.y(), z};

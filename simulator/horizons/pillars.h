@@ -31,6 +31,9 @@ class Pillars {
   Pillars(const LayeredBody& body, const MapMesh& map);
   Eigen::Vector2d in_map(int vertex, double z) const;
   Eigen::Vector3d at(int vertex, double z) const;
+  /// Of all faults at a depth, m; and a pillar's place there.
+  std::vector<double> shifts_at(double z) const;
+  Eigen::Vector2d in_map(int vertex, const std::vector<double>& shifts) const;
   const FaultShift& shift(int fault) const { return shifts_[fault]; }
 
  private:

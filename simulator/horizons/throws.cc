@@ -34,12 +34,6 @@ std::vector<double> tapers(const LayeredFault& fault, const MapMesh& map, int li
   return parts;
 }
 
-/// The place of a triangle at a vertex.
-int place_at(const MapMesh& map, const CutMap& cut, int triangle, int vertex) {
-  const auto corner = std::ranges::find(map.triangles[triangle], vertex);
-  return cut.places[triangle][static_cast<std::size_t>(corner - map.triangles[triangle].begin())];
-}
-
 /// What a throw is at both sides of its fault.
 struct HeldThrow {
   std::vector<bool> is_held;  ///< per place.

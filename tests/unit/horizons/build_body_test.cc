@@ -94,6 +94,35 @@ TEST(BuildBody, ADippingFaultWithThrowIsExact) {
   EXPECT_GT(built.smallest_sicn, 0.1);
 }
 
+TEST(BuildBody, TellsTheThrowsOfItsFaults) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].dip = 90 * kDegree;
+  body.faults[0].moved.reset();
+  // Deeper by 40 to 80 m on the right of the trace, seen along it.
+  PointDepth points;
+  for (const double x : {-2900., -1500., -300., 300., 1500., 2900.})
+    for (double y = -2000; y <= 2000; y += 250)
+      points.points.emplace_back(x, y, -1800 - (x > 0 ? 60 + y / 100 : 0));
+  body.horizons[0].depth = points;
+  std::vector<FoundThrow> throws = build_body(body, "body").throws;
+  ASSERT_EQ(throws.size(), 2u);
+  EXPECT_EQ(throws[0].fault, 0);
+  EXPECT_EQ(throws[1].horizon, 1);
+  EXPECT_NEAR(throws[0].least, 40, 1e-9);
+  EXPECT_NEAR(throws[0].middle, 60, 1);
+  EXPECT_NEAR(throws[0].largest, 80, 1e-9);
+  EXPECT_EQ(throws[1].largest, 0) << "a depth that is the same everywhere has no step";
+  std::ranges::reverse(body.faults[0].trace);
+  throws = build_body(body, "body").throws;
+  EXPECT_NEAR(throws[0].least, -80, 1e-9) << "now deeper on the left";
+  EXPECT_NEAR(throws[0].largest, -40, 1e-9);
+  body.faults[0].moved = FaultThrow{100};
+  body.horizons[0].depth = ConstantDepth{-1900};
+  for (const FoundThrow& one : build_body(body, "body").throws)
+    EXPECT_NEAR(one.middle, 100, 1e-6) << "down on the right, the hanging wall";
+}
+
 TEST(BuildBody, ADippingFaultIsCutAllOver) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
