@@ -225,9 +225,7 @@ void add_pillars(Program& program) {
   add_campaign(map_command, program.common);
   map_command
       ->add_option("-o,--output", m.output,
-                   "file: .csv, .vtu (ParaView), .pvd (ParaView, with a .vtu beside it for each "
-                   "year) or .ts "
-                   "(GOCAD surfaces with properties)")
+                   "file: .csv, .vtu, .pvd (the same year by year) or .ts (GOCAD surfaces)")
       ->required();
   map_command->footer("Example: faultsweep map pillars/places.csv pillars -o map.csv");
 }

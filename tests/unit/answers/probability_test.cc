@@ -406,6 +406,11 @@ TEST_F(AnswersTest, PlacesAreNoSample) {
   EXPECT_EQ(found.shares.at(0).bounds.low, 0.5) << "no sample, no bound";
   EXPECT_EQ(found.shares.at(0).bounds.high, 0.5);
   EXPECT_THROW(analyse_sensitivity(*store_, campaign_, {}), InputError);
+  // A name explains nothing, and follows from nothing.
+  const Sample sample = read_sample(*store_, campaign_, {}, "F1.chi_bar");
+  ASSERT_EQ(sample.parameters.size(), 2u);
+  EXPECT_EQ(sample.parameters[1].name, "offset");
+  EXPECT_TRUE(sample.derived.empty());
 }
 
 /// Rows of a design that are one case count as often as they are rows.

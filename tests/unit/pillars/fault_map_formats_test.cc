@@ -119,6 +119,14 @@ TEST(FaultMap, ShowsRefusedPillarsAndDates) {
   EXPECT_EQ(array_of<std::int64_t>(vtu, "connectivity"), (std::vector<std::int64_t>{0, 1, 2, 3}));
   EXPECT_EQ(array_of<std::uint8_t>(vtu, "types"), (std::vector<std::uint8_t>{3, 3}));
   EXPECT_EQ(fault_map_to_tsurf(map), "") << "one pillar of F is left";
+  // Cells go by the panels that are there: with a place without one before the pillars of F.
+  map = small_map();
+  map.places.insert(map.places.begin(), map.places[2]);
+  map.places[0].x = kNone;
+  map.outcomes.insert(map.outcomes.begin(), "refused");
+  for (FaultMap::Property& one : map.properties) one.values.insert(one.values.begin(), kNone);
+  EXPECT_EQ(array_of<std::int64_t>(fault_map_to_vtu(map), "connectivity"),
+            (std::vector<std::int64_t>{0, 1, 2, 3, 4, 5, 0, 2, 3, 1}));
 }
 
 TEST(FaultMap, VtuHasPanelsThatDipToTheRightOfTheirStrike) {

@@ -266,6 +266,22 @@ TEST_F(PillarsInAField, AreRefusedOutsideOfIt) {
             std::string::npos);
 }
 
+/// Temperatures too, from a map of their own.
+TEST_F(PillarsInAField, TakeTemperaturesWhereTheyAre) {
+  std::ofstream(folder_ / "t.csv")
+      << "x [m], y [m], depth [m], dx [m], dy [m], dz [m], 1990-01-01 [degC], 2000-01-01 [degC]\n"
+         "1000, 2000, 2500, 9000, 9000, 2000, 90, 80\n";
+  base_.value["temperature_field"] = {{"file", "t.csv"}, {"origin", {"-199 km", "-498 km"}}};
+  base_.value["materials"]["reservoir"]["thermal_expansion"] = "1e-5 1/K";
+  const PillarCampaign campaign =
+      of({{Role::x, {200000}}, {Role::y, {500000}}, {Role::azimuth, {0}}});
+  ASSERT_EQ(campaign.n_cases, 1u) << campaign.refused.at(0).problems.at(0).what;
+  EXPECT_NE(line(campaign.samples, 0).find("/temperature_field/origin/0 [m]"), std::string::npos);
+  EXPECT_EQ(placement(campaign, 0), (std::array<double, 3>{1000, 2000, 0}));
+  const auto spec = nlohmann::json::parse(campaign.spec);
+  EXPECT_EQ(spec["set"]["/temperature_field/origin"], (nlohmann::json{"0 m", "0 m"}));
+}
+
 /// A history of its own, which ends at a date; the map knows when it began.
 TEST_F(PillarsInAField, EndAtDatesOfTheirOwn) {
   PillarTable table = table_of({{Role::x, {200000, 200000, 200000}},
