@@ -2,6 +2,7 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "simulator/common/disjoint_sets.h"
 #include "simulator/common/errors.h"
 
 namespace faultsim::horizons {
@@ -34,9 +35,30 @@ MapOperator map_operator(const std::vector<Vector2d>& vertices, const Triangles&
   return op;
 }
 
-VectorXd fill_between(const MapOperator& op, const VectorXd& extra, const std::vector<bool>& fixed,
-                      const VectorXd& values) {
+namespace {
+
+/// Fixed ones, and all of parts of the map that nothing holds: these keep their values.
+std::vector<bool> with_loose_parts(const MapOperator& op, const VectorXd& extra,
+                                   const std::vector<bool>& fixed) {
+  DisjointSets parts(fixed.size());
+  for (Eigen::Index j = 0; j < op.stiffness.outerSize(); ++j)
+    for (Eigen::SparseMatrix<double>::InnerIterator at(op.stiffness, j); at; ++at)
+      parts.join(static_cast<int>(at.row()), static_cast<int>(j));
+  std::vector<bool> is_held(fixed.size(), false), all(fixed.size());
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    if (fixed[k] || extra[static_cast<Eigen::Index>(k)] > 0)
+      is_held[parts.find(static_cast<int>(k))] = true;
+  for (std::size_t k = 0; k < fixed.size(); ++k)
+    all[k] = fixed[k] || !is_held[parts.find(static_cast<int>(k))];
+  return all;
+}
+
+}  // namespace
+
+VectorXd fill_between(const MapOperator& op, const VectorXd& extra,
+                      const std::vector<bool>& fixed_by_caller, const VectorXd& values) {
   const Eigen::Index n = op.area.size();
+  const std::vector<bool> fixed = with_loose_parts(op, extra, fixed_by_caller);
   std::vector<int> number(fixed.size(), -1);
   int n_free = 0;
   for (std::size_t k = 0; k < fixed.size(); ++k)

@@ -16,7 +16,8 @@ struct MapOperator {
 MapOperator map_operator(const std::vector<Eigen::Vector2d>& vertices, const Triangles& triangles,
                          const std::vector<std::array<int, 3>>& numbers, std::size_t n);
 
-/// The u with (K + diag(extra)) u = 0 at the unknowns that are not fixed.
+/// The u with (K + diag(extra)) u = 0 at the unknowns that are not fixed. A part of the map where
+/// none is, and no `extra` above 0, keeps its values.
 /// @param fixed  per unknown, whether `values` says what it is.
 Eigen::VectorXd fill_between(const MapOperator& op, const Eigen::VectorXd& extra,
                              const std::vector<bool>& fixed, const Eigen::VectorXd& values);

@@ -71,10 +71,8 @@ MatrixXd throw_fields(const LayeredBody& body, const MapMesh& map, const CutMap&
     HeldThrow held{std::vector<bool>(cut.n_places(), false), VectorXd::Zero(n)};
     for (const TracePiece& piece : pieces)
       if (piece.fault == f) hold_sides(map, cut, fault, piece, parts, held);
-    // Parts of the map that nothing holds stay where they are: a held one moves by 1e-14 less.
     const double reach2 = fault.moved->reach * fault.moved->reach;
-    const double least = 1e-14 / (body.high - body.low).squaredNorm();
-    fields.col(f) = fill_between(op, op.area * std::max(1 / reach2, least), held.is_held, held.up);
+    fields.col(f) = fill_between(op, op.area / reach2, held.is_held, held.up);
   }
   return fields;
 }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "simulator/horizons/map_operator.h"
 #include "tests/unit/horizons/bodies.h"
 
 namespace faultsim::horizons {
@@ -31,6 +32,21 @@ TEST(Throws, FadeWithTheirReach) {
       EXPECT_NEAR(up(cut.places[t][v], 0), part * (middle > 0 ? -75 : 25), 2) << "at x " << away;
     }
   }
+}
+
+/// Squares of powers of two have pivots that are nothing, not nearly nothing.
+TEST(Throws, APartThatNothingHoldsStaysAsItIs) {
+  const std::vector<Eigen::Vector2d> corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+                                                {2, 0}, {3, 0}, {3, 1}, {2, 1}};
+  const Triangles triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}, {4, 6, 7}};
+  const MapOperator op = map_operator(corners, triangles, triangles, corners.size());
+  std::vector<bool> fixed(corners.size(), false);
+  fixed[1] = true;
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(8);
+  values[1] = 3;
+  const Eigen::VectorXd u = fill_between(op, Eigen::VectorXd::Zero(8), fixed, values);
+  EXPECT_NEAR((u.head(4).array() - 3).abs().maxCoeff(), 0, 1e-14);
+  EXPECT_EQ(u.tail(4).cwiseAbs().maxCoeff(), 0);
 }
 
 TEST(Throws, FallToNothingAtEndsInDepth) {
