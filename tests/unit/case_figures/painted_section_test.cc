@@ -215,6 +215,14 @@ TEST(PaintedSection, ShowsTemperaturesWhereThereAreNoPressures) {
       if (one.name == "polygon") all.push_back(one.attributes.at("fill"));
     return all;
   };
+  const auto numbers = [](const std::string& svg) {
+    std::vector<std::string> all;
+    for (const figure::SvgElement& one : figure::elements_of(svg))
+      if (one.name == "text" && one.text.find_first_not_of("−-0123456789.") == std::string::npos)
+        all.push_back(one.text);
+    return all;
+  };
+  EXPECT_EQ(numbers(temperatures), numbers(pressures));
   EXPECT_EQ(fills(temperatures), fills(pressures));
   EXPECT_GT(fills(temperatures).size(), 100u);
 }

@@ -45,9 +45,9 @@ TEST_F(InputFile, IsLookedAtWithoutACopy) {
   std::ofstream(path("a"), std::ios::binary) << text;
   std::string pieces;
   EXPECT_EQ(visit_input_file(path("a"), [&](std::string_view piece) { pieces += piece; }).what, "");
-  EXPECT_EQ(pieces, text);
+  EXPECT_TRUE(pieces == text);  // too long to be compared line by line
   EXPECT_EQ(fingerprint_of_file(path("a")), fingerprint(text));
-  EXPECT_EQ(MappedFile(path("a")).text(), text);
+  EXPECT_TRUE(MappedFile(path("a")).text() == text);
   std::ofstream(path("empty")).close();
   EXPECT_EQ(MappedFile(path("empty")).text(), "");
   for (const std::string& odd : {folder_.string(), path("none"), std::string("/dev/zero")}) {

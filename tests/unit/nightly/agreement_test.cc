@@ -169,8 +169,10 @@ TEST(Agreement, TolerancesAreOfTheirQuantityAndNoneHelpsAgainstFlips) {
 
 /// The surface of a case was not stored when older baselines were written.
 TEST(Agreement, WhatABaselineDoesNotHaveIsNoDifference) {
-  const CaseResult tonight = testing::made_up_result_with_events(0.8);
+  CaseResult tonight = testing::made_up_result_with_events(0.8);
+  tonight.steps[1].temperature_change = {-10, 0};
   CaseResult baseline = tonight;
+  baseline.steps[1].temperature_change.clear();
   baseline.surface.reset();
   baseline.field_coverage.reset();
   baseline.field_assumed.reset();
