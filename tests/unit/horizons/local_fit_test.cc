@@ -43,6 +43,9 @@ TEST(LocalFit, OfPointsOnALineIsConstantAcrossAndOfOneConstant) {
   const LocalFit fit(seen_from({0, 0}, line));
   EXPECT_NEAR(fit.at({15, 20}), -1005, 1e-9);
   EXPECT_NEAR(fit.at({15 - 40, 20 + 30}), -1005, 1e-9) << "across";
+  for (int k = 0; k < 5; ++k) line[k] += (k % 2 == 0 ? 0.3 : -0.3) * Eigen::Vector3d(0.8, -0.6, 1);
+  EXPECT_NEAR(LocalFit(seen_from({0, 0}, line)).at({15 - 40, 20 + 30}), -1005, 1)
+      << "nearly on a line: what is across it says nothing";
   EXPECT_EQ(LocalFit(seen_from({0, 0}, {{100, 0, -7}})).at({0, 0}), -7);
 }
 
@@ -99,6 +102,7 @@ TEST(MapBarriers, SeeRoundABendAndNotThroughATrace) {
   EXPECT_TRUE(barriers.sees({20, -1}, {190, -19}));
   EXPECT_TRUE(barriers.is_within({50, 9}, 10));
   EXPECT_FALSE(barriers.is_within({50, 11}, 10));
+  EXPECT_FALSE(barriers.is_within({150, 0}, 8)) << "of a slanting one, in whose box it is";
 }
 
 }  // namespace
