@@ -75,12 +75,6 @@ class SceneMaker {
     add_geometry();
     add_mesh();
     add_initial_state();
-    scene["friction"] = {{"cohesion", "0 MPa"}, {"friction_angle", "30 deg"}};
-    say(RemarkKind::choice, "all faults have a friction angle of 30 deg and no cohesion: assumed",
-        "/friction");
-    scene["fault_pressure"] = {{"rule", "mean"}};
-    say(RemarkKind::choice, "pressures in faults are the mean of both sides: assumed",
-        "/fault_pressure");
     add_faults();
     add_loading();
     return std::move(made_);
@@ -242,6 +236,13 @@ void SceneMaker::add_initial_state() {
 }
 
 void SceneMaker::add_faults() {
+  if (made_.lines.faults.empty()) return;
+  made_.scene["friction"] = {{"cohesion", "0 MPa"}, {"friction_angle", "30 deg"}};
+  say(RemarkKind::choice, "all faults have a friction angle of 30 deg and no cohesion: assumed",
+      "/friction");
+  made_.scene["fault_pressure"] = {{"rule", "mean"}};
+  say(RemarkKind::choice, "pressures in faults are the mean of both sides: assumed",
+      "/fault_pressure");
   Json faults = Json::array();
   for (const ModelFault& fault : made_.lines.faults) {
     Json one = {{"name", fault.name}, {"trace", places(fault.trace)}};
@@ -256,13 +257,12 @@ void SceneMaker::add_faults() {
     one["bottom"] = depth(fault.bottom);
     faults.push_back(one);
   }
-  if (!faults.empty()) made_.scene["faults"] = faults;
-  if (!made_.lines.faults.empty())
-    say(RemarkKind::choice,
-        formatted("each fault has one dip, the median of its pillars', and reaches %.0f m above "
-                  "and below the reservoir beside it",
-                  options_.lines.overshoot),
-        "--overshoot, /faults");
+  made_.scene["faults"] = faults;
+  say(RemarkKind::choice,
+      formatted("each fault has one dip, the median of its pillars', and reaches %.0f m above "
+                "and below the reservoir beside it",
+                options_.lines.overshoot),
+      "--overshoot, /faults");
 }
 
 void SceneMaker::add_stage_without_reports() {

@@ -8,6 +8,7 @@
 
 #include "made_scene.h"
 #include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/grid_pictures.h"
 #include "simulator/grid_scene/line_check.h"
 #include "simulator/grid_scene/mesh_size.h"
 #include "simulator/grid_scene/outline.h"
@@ -116,6 +117,14 @@ TEST(GridScene, IsTheSceneOfTheContract) {
   EXPECT_GT(gradient, -22);
 }
 
+TEST(GridScene, HasNothingOfFaultsWhereThereAreNone) {
+  const GridScene made_scene = scene_of(made(MadeGrid{})).made;
+  for (const char* key : {"faults", "friction", "fault_pressure"})
+    EXPECT_FALSE(made_scene.scene.contains(key)) << key;
+  EXPECT_EQ(made_scene.compartments.size(), 1u);
+  EXPECT_EQ(made_scene.lines.dividers.size(), 2u);
+}
+
 TEST(GridScene, TakesPressuresAndDatesOfReports) {
   FlowField field;
   field.cells = {{{0, 0, -2010}, {100, 100, -1990}}, {{0, 0, -2110}, {100, 100, -2090}}};
@@ -161,6 +170,19 @@ TEST(GridScene, GoesOnFromTipsOnRequest) {
   EXPECT_EQ(all.made.compartments.size(), 2u);
   ASSERT_EQ(all.made.lines.dividers.size(), 3u);
   EXPECT_EQ(all.made.lines.dividers[0].name, "on_from_F1");
+}
+
+TEST(GridPictures, SayWhatWasRecognised) {
+  const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
+  const std::string map = map_picture(all.structure, all.made);
+  for (const char* text : {">F1, 60 m<", ">C1<", ">C2<", "stroke-dasharray"})
+    EXPECT_THAT(map, HasSubstr(text));
+  const std::string section = section_picture(all.grid, all.structure, all.made);
+  EXPECT_THAT(section, HasSubstr("A section across F1 where its throw is largest"));
+  EXPECT_THAT(section, HasSubstr("<circle"));
+  const MadeScene none = scene_of(made(MadeGrid{}));
+  EXPECT_THAT(section_picture(none.grid, none.structure, none.made),
+              HasSubstr("A section from west to east"));
 }
 
 TEST(SceneText, KeepsShortThingsOnALine) {
