@@ -24,7 +24,8 @@ std::vector<int> terms_of(bool is_line, bool is_second) {
 
 }  // namespace
 
-LocalFit::LocalFit(const std::vector<SeenPoint>& points) : nearest_(points.front().at) {
+LocalFit::LocalFit(const std::vector<SeenPoint>& points, double farthest)
+    : nearest_(points.front().at), farthest_(farthest) {
   Vector2d middle = Vector2d::Zero();
   for (const SeenPoint& one : points) {
     reach_ = std::max(reach_, (one.at - nearest_).head<2>().norm());
@@ -72,7 +73,9 @@ LocalFit::Terms LocalFit::terms_at(const Vector2d& place) const {
 }
 
 double LocalFit::at(const Vector2d& place) const {
-  return nearest_.z() + factors_.dot(terms_at(place));
+  const Vector2d from = nearest_.head<2>(), way = place - from;
+  const double part = std::min(1.0, farthest_ / std::max(way.norm(), 1e-300));
+  return nearest_.z() + factors_.dot(terms_at(from + part * way));
 }
 
 }  // namespace faultsim::horizons

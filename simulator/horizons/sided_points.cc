@@ -84,12 +84,12 @@ std::optional<LocalFit> SidedPoints::fit(const MapBarriers& barriers, const Vect
       });
       if (is_by_another || !barriers.sees(from, on_map_[k])) continue;
       seen.push_back({at, away});
-      if (seen.size() == kMostSeen) return LocalFit(seen);
+      if (seen.size() == kMostSeen) return LocalFit(seen, bin_size_);
     }
     if (n_looked_at == kMostLookedAt || within > all) break;
   }
   if (seen.empty()) return std::nullopt;
-  return LocalFit(seen);
+  return LocalFit(seen, bin_size_);
 }
 
 std::pair<double, double> SidedPoints::depths_near(const Vector2d& from) const {

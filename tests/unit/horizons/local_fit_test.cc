@@ -37,6 +37,16 @@ TEST(LocalFit, IsExactForWhatItsOrderHolds) {
   EXPECT_NEAR(LocalFit(seen_from({-50, 200}, few)).at({-50, 200}), plane(-50, 200), 1e-9);
 }
 
+/// Points thin out with their distance, so that R is no measure of how near one is.
+TEST(LocalFit, GoesOnAsFarAsItIsToldTo) {
+  std::vector<Eigen::Vector3d> slope;
+  for (int k = 0; k < 16; ++k) slope.emplace_back(100 * (k % 4), 100 * (k / 4), 10 * (k % 4));
+  const Vector2d far(-900, 100);
+  const std::vector<SeenPoint> seen = seen_from(far, slope);
+  EXPECT_NEAR(LocalFit(seen, 50).at(far), -5, 1e-6);
+  EXPECT_NEAR(LocalFit(seen, 50).at({-20, 100}), -2, 1e-6);
+}
+
 TEST(LocalFit, OfPointsOnALineIsConstantAcrossAndOfOneConstant) {
   std::vector<Eigen::Vector3d> line;
   for (int k = 0; k < 5; ++k) line.emplace_back(30. * k, 40. * k, -1000 - 10. * k);
