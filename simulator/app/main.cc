@@ -134,9 +134,8 @@ void add_from_grid(CLI::App* init, FromGridArguments& a, ExitCode& code) {
   command->add_option("--margin", a.margin,
                       "beside the active map (default: twice the depth, 5 km at least)");
   command->add_option("--base", a.base, "depth of the model (default: twice the reservoir's)");
-  command->add_option(
-      "--strike", a.strike,
-      "size of cells at faults (default: half a cell of the grid, or by --tetrahedra)");
+  command->add_option("--strike", a.strike,
+                      "size of cells at faults (default: half the grid's, or by --tetrahedra)");
   command->add_option("--tetrahedra", a.tetrahedra, "about how many (default 100000)")
       ->check(CLI::Range(1e3, 1e8));
   add_recognition(command, a);
