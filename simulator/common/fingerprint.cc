@@ -1,6 +1,9 @@
 #include "simulator/common/fingerprint.h"
 
 #define XXH_INLINE_ALL
+#ifndef NDEBUG  // with -Og not all is inlined that the library would force to be
+#define XXH_NO_INLINE_HINTS 1
+#endif
 #include <xxhash.h>
 
 #include "simulator/common/text.h"
