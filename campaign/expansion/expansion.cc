@@ -245,11 +245,9 @@ class Expander {
       std::string& all = names[static_cast<std::size_t>(one.choices[p])].text;
       const std::string& own = names[static_cast<std::size_t>(row[p])].text;
       constexpr std::size_t kMost = 80;
-      if (all.size() + own.size() < kMost) {
-        all += ", " + own;
-      } else if (!all.ends_with(", …")) {
-        all += ", …";
-      }
+      constexpr std::string_view kMore = ", …";
+      if (all.ends_with(kMore)) continue;
+      all += all.size() + own.size() < kMost ? ", " + own : std::string(kMore);
     }
   }
 

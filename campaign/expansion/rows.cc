@@ -13,8 +13,7 @@ long size_of(const Parameter& one) { return static_cast<long>(one.choices.size()
 
 /// They are listed, read or drawn.
 bool has_rows(const Design& design) {
-  return design.kind == DesignKind::list || is_of_file(design.kind) ||
-         is_sampled(design.kind);
+  return design.kind == DesignKind::list || is_of_file(design.kind) || is_sampled(design.kind);
 }
 
 long count_rows(const Design& design, Parameters parameters) {

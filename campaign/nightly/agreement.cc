@@ -192,6 +192,8 @@ std::vector<std::string> quantities() {
   full.episodes.emplace_back();
   full.surface.emplace().stability = 0;
   full.field_coverage = full.field_assumed = 0;
+  faultsim::FaultOnset& onset = full.whole.faults.emplace_back().activation.emplace();
+  onset.load_before = onset.load_after = onset.change_before = 0;
   std::map<std::string, double> scales;
   json document = faultsim::result_to_json(full);
   document["pressure_margin_pa"] = 0;

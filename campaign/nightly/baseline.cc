@@ -224,6 +224,14 @@ std::string result_digest(const CaseResult& result) {
   faultsim::for_each_field(result, forget_absent(document));
   for (std::size_t k = 0; k < result.steps.size(); ++k)
     faultsim::for_each_field(result.steps[k], forget_absent(document["steps"][k]));
+  const faultsim::FaultOnset onset;
+  const auto forget_in_onsets = [&](json& stage) {
+    for (json& fault : stage["faults"])
+      for (const char* key : {"activation", "opening"})
+        if (fault[key].is_object()) faultsim::for_each_field(onset, forget_absent(fault[key]));
+  };
+  forget_in_onsets(document["whole"]);
+  for (json& stage : document["stages"]) forget_in_onsets(stage);
   return faultsim::fingerprint(document.dump());
 }
 

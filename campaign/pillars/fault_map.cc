@@ -112,8 +112,10 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
     throw InputError(campaign.name, "no pillar has a result yet",
                      "run it first: faultsweep run " + campaign.name);
   const auto any = std::ranges::find(lines, "", &PlaceLine::refused);
-  const Selection selection =
-      make_selection(store, campaign, "", any == lines.end() ? "" : any->section_fault);
+  if (any == lines.end())
+    throw InputError(places_file.string(), "none of its places is a case",
+                     "take the places.csv that the campaign was made with");
+  const Selection selection = make_selection(store, campaign, "", any->section_fault);
   const std::map<std::string, ScopedMetric> known = known_metrics(selection);
   FaultMap map;
   map.campaign = campaign;

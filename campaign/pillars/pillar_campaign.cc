@@ -176,7 +176,9 @@ Problem in_table(Problem problem, const std::vector<Setting>& settings, const Pi
     return problem;
   }
   for (const Setting& one : settings) {
-    if (one.heading.empty() || !problem.pointer.starts_with(one.pointer)) continue;
+    const bool is_of_it =
+        problem.pointer.size() >= one.pointer.size() && overlap(problem.pointer, one.pointer);
+    if (one.heading.empty() || !is_of_it) continue;
     problem.pointer = one.heading;
     return problem;
   }

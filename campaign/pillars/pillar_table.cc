@@ -187,7 +187,7 @@ class Reader {
     }
     if (column.role == nullptr) return;
     const std::string text(reader_.cell(k));
-    if (column.role->role == PillarRole::id) line.id = text;
+    if (column.role->role == PillarRole::id && !text.empty()) line.id = text;
     if (column.role->role == PillarRole::fault) line.fault = text;
     if (column.role->role != PillarRole::until) return;
     line.until = text;

@@ -16,7 +16,8 @@ std::string exact_number(double value) {
 }
 
 std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  const bool is_comment = text.starts_with('#');  // in tables that are read again
+  if (text.find_first_of(",\"\r\n") == std::string::npos && !is_comment) return text;
   std::string quoted = "\"";
   for (const char letter : text) quoted += letter == '"' ? "\"\"" : std::string(1, letter);
   return quoted + '"';

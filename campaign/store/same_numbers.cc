@@ -61,6 +61,8 @@ const std::set<std::string>& later_fields() {
     };
     const faultsim::StepResult step;
     faultsim::for_each_field(step, note);
+    const faultsim::FaultOnset onset;
+    faultsim::for_each_field(onset, note);
     const CaseResult result;
     faultsim::for_each_measure(result.whole, note);
     faultsim::for_each_field(result, note);

@@ -2,9 +2,11 @@
 #include <iostream>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "simulator/app/commands.h"
 #include "simulator/common/input_file.h"
+#include "simulator/common/printable.h"
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/common/units.h"
@@ -26,9 +28,12 @@ using grid_scene::GridSceneOptions;
 
 constexpr std::size_t kMostTableBytes = 10'000'000;
 
-/// What of the structure's options the command calls otherwise than "--" and their name.
+/// What of the structure's options the command calls otherwise than "--" and their name; "": it has
+/// no such option.
 const std::map<std::string, std::string> kOptionNames = {{"reference_z", "--reference-depth"},
-                                                         {"bridge_gaps", "--no-bridges"}};
+                                                         {"bridge_gaps", "--no-bridges"},
+                                                         {"negligible_offset", ""},
+                                                         {"no_thickness", ""}};
 
 std::string option_name(const std::string& member) {
   const auto known = kOptionNames.find(member);
@@ -131,6 +136,12 @@ class FromGrid {
     if (arguments_.output.extension() != ".json")
       problems_.push_back({"-o", 0, "\"" + arguments_.output.string() + "\" is no name of a scene",
                            "let it end in .json"});
+    for (const std::string& name : {options_.stem, options_.source, options_.field_file}) {
+      const std::string odd = first_unprintable(name);
+      if (odd.empty()) continue;
+      problems_.push_back(
+          {"", 0, "the name \"" + printable(name) + "\" holds \"" + odd + "\"", "rename the file"});
+    }
   }
 
   fs::path beside(const std::string& ending) const {

@@ -181,7 +181,8 @@ ExitCode run_command(const RunArguments& arguments) {
     std::cout << text;
   } else {
     if (result.failed_step) std::cout << step_table_row(result.steps.back(), arguments.wide);
-    std::cout << case_summary(result) << field_integrals_to_text(prepared.integrals);
+    std::cout << case_summary(result)
+              << field_integrals_to_text(prepared.integrals, result.plane_strain);
     if (finished) {
       std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";
     } else {

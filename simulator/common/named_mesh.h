@@ -19,10 +19,10 @@ struct NamedMesh {
                                            ///< triangle.
   std::vector<int> facet_group;            ///< per facet, into facet_groups.
   std::vector<std::string> facet_groups;   ///< the same of surfaces that have facets.
-  std::string fingerprint;                 ///< of the bytes that it comes from.
+  std::string fingerprint;  ///< of a file's bytes; of a mesh that was built, fingerprint_of().
 };
 
-/// Of all that a mesh says.
+/// Of all that a mesh says, but for NamedMesh::fingerprint.
 std::string fingerprint_of(const NamedMesh& mesh);
 
 }  // namespace faultsim

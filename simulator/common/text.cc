@@ -16,4 +16,13 @@ std::string formatted(const char* pattern, ...) {
   return text;
 }
 
+std::string decimal(double value, int decimals) {
+  std::string text = formatted("%.*f", decimals, value);
+  if (text.find('.') != std::string::npos) {
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+  }
+  return text == "-0" ? "0" : text;
+}
+
 }  // namespace faultsim

@@ -13,6 +13,9 @@ namespace faultsim {
 /// As printf does.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
 
+/// "1234.5": rounded to so many decimals, without zeros behind them; never "-0".
+std::string decimal(double value, int decimals);
+
 /// The items, seen through `projection` (to a text or a number), with `between` between them.
 template <typename Range, typename Projection = std::identity>
 std::string joined(const Range& range, std::string_view between, Projection projection = {}) {

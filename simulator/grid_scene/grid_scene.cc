@@ -19,12 +19,7 @@ using Eigen::Vector3d;
 using Json = nlohmann::ordered_json;
 
 /// "1234.5 m": to a centimetre.
-std::string length(double value) {
-  std::string text = formatted("%.2f", value);
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.back() == '.') text.pop_back();
-  return (text == "-0" ? "0" : text) + " m";
-}
+std::string length(double value) { return decimal(value, 2) + " m"; }
 
 std::string depth(double z) { return length(-z); }
 
@@ -120,6 +115,12 @@ void SceneMaker::take_layers() {
     throw InputError(options_.source,
                      formatted("the reservoir reaches up to a depth of %.0f m", shallowest_),
                      "the model begins at depth 0 and needs rock above: is depth downwards there?");
+  if (deepest_ + made_.lines.strike >= -made_.lines.base)
+    throw InputError(
+        options_.source,
+        formatted("the reservoir reaches down to a depth of %.0f m, the model to %.0f m", deepest_,
+                  -made_.lines.base),
+        "let the model reach deeper: --base");
   if (options_.layers_text.empty()) {
     rocks_ = assumed_layers();
     say(RemarkKind::choice,
@@ -154,8 +155,9 @@ Json SceneMaker::layers_json() {
   for (std::size_t s = 0; s < made_.surfaces.size(); ++s) {
     ModelSurface& surface = made_.surfaces[s];
     const bool is_base = s + 1 == made_.surfaces.size();
-    if (is_base) surface.name = below.name;
+    // By the surfaces' own names: those of the user's layers may be no names of files.
     const std::string file = options_.stem + "-" + surface.name + ".csv";
+    if (is_base) surface.name = below.name;
     made_.tables.push_back({file, csv_of(surface)});
     add(surface.name, is_base ? below.name : rocks_.all[rocks_.reservoir].name, {{"csv", file}});
   }
@@ -270,7 +272,9 @@ void SceneMaker::add_stage_without_reports() {
                                         {"duration", "10 year"},
                                         {"steps", 10},
                                         {"pressure_change", "-100 bar"}}});
-  say(RemarkKind::choice, "no reports: -100 bar over 10 years is assumed in all compartments",
+  say(RemarkKind::choice,
+      std::string(pressures_ == nullptr ? "no reports" : "one report only") +
+          ": -100 bar over 10 years is assumed in all compartments",
       "--restart, /stages");
 }
 

@@ -37,12 +37,13 @@ struct GridScene {
   ModelLines lines;
   std::vector<ModelSurface> surfaces;
   std::vector<ModelCompartment> compartments;
-  Remarks remarks;  ///< every choice, with the option or the key of the scene that changes it.
+  Remarks remarks;  ///< every choice, with the option or the key that changes it where one does.
 };
 
 /// The scene of a grid: pure, equal input gives equal text.
 /// @param pressures  of the grid's restart files; null: none are there.
-/// @throws InputError: a table of layers that does not fit.
+/// @throws InputError: a table of layers that does not fit, a reservoir at the surface or at the
+/// base of the model, an active map that is nowhere two columns wide.
 GridScene grid_scene(const corner_point::CornerPointGrid& grid,
                      const corner_point::GridStructure& structure, const GridSceneOptions& options,
                      const FlowField* pressures);

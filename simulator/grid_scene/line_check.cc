@@ -26,7 +26,8 @@ int fault_in(const std::string& pointer) {
   return number;
 }
 
-/// Faults that cross each other at a flat angle, or a second time: the later one of them.
+/// Faults that cross each other, at first, at less than 26 degrees (the builder wants 25, and
+/// points are moved): the later one.
 std::optional<Misfit> flat_crossing(const ModelLines& lines) {
   constexpr double kLeast = 26 * std::numbers::pi / 180;
   for (std::size_t q = 0; q < lines.faults.size(); ++q) {

@@ -7,6 +7,7 @@
 #include "simulator/common/text.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/outline.h"
+#include "simulator/horizons/layered_body.h"
 
 namespace faultsim::grid_scene {
 namespace {
@@ -55,8 +56,8 @@ double estimated_cells(const corner_point::GridStructure& structure, const Model
                        double strike) {
   const MeshGrading grading = grading_of(structure, lines);
   const double h = std::min(strike, grading.largest), g = grading.growth;
+  const double dividers = horizons::BodyCells{.at_faults = h}.beside_dividers();
   constexpr double kTriangle = 0.45;    // of a size squared, measured
-  constexpr double kDividers = 8;       // BodyCells::at_dividers
   constexpr double kFaultHeight = 500;  // m, of what is fine in depth
   const auto beside = [&](double length, double size) {
     const double first = std::min(size, grading.largest);
@@ -73,7 +74,7 @@ double estimated_cells(const corner_point::GridStructure& structure, const Model
   const Eigen::Vector2d box = lines.high - lines.low;
   const double far = box.x() * box.y() / (kTriangle * grading.largest * grading.largest);
   return 3 * (beside(faults, h) * levels(1.5 * h) +
-              beside(length_of_outlines(lines), kDividers * h) * levels(kDividers * h) +
+              beside(length_of_outlines(lines), dividers) * levels(dividers) +
               far * levels(grading.largest));
 }
 

@@ -54,6 +54,9 @@ class LineMaker {
   ModelLines make() {
     lines_.reference_z = structure_.reference_z;
     lines_.outlines = active_outlines(map_, cell_, lines_.reference_z, remarks_);
+    if (lines_.outlines.empty())
+      throw InputError("the flow grid", "its active map is nowhere two columns wide",
+                       "give the grid of the field, not that of a section");
     take_box();
     lines_.strike = chosen_strike(structure_, lines_, cell_, options_, remarks_);
     std::string trouble = fit();
@@ -76,7 +79,7 @@ class LineMaker {
   void take_box();
   std::string fit();
   void draw_faults();
-  std::optional<ModelFault> drawn(int source) const;
+  ModelFault drawn(int source) const;
   void draw_depths(const Fault& fault, ModelFault& drawn) const;
   void open_v_ends();
   void draw_ends(std::size_t f);
@@ -153,13 +156,13 @@ void LineMaker::draw_faults() {
       leave_out(f, "it runs back into itself");
       continue;
     }
-    if (std::optional<ModelFault> one = drawn(f)) lines_.faults.push_back(std::move(*one));
+    lines_.faults.push_back(drawn(f));
   }
   open_v_ends();
   for (std::size_t f = 0; f < lines_.faults.size(); ++f) draw_ends(f);
 }
 
-std::optional<ModelFault> LineMaker::drawn(int source) const {
+ModelFault LineMaker::drawn(int source) const {
   const Fault& fault = structure_.faults[source];
   ModelFault drawn{.name = concat("F", source + 1), .source = source, .trace = fault.trace};
   drawn.lean = lean_of(fault);
@@ -224,12 +227,11 @@ void LineMaker::draw_end(std::size_t f, bool is_last) {
   if (!is_last) std::ranges::reverse(fault.trace);
   const int other = end.kind == EndKind::junction ? model_of(end.other) : -1;
   kind = LineEnd::rock;
-  if (other >= 0 && lines_.faults[other].source < fault.source) {
-    fault.trace = led_to(fault.trace, lines_.faults[other].trace, cell_);
-    kind = LineEnd::fault;
-  } else if (other >= 0 &&
-             nearest_on_line(lines_.faults[other].trace, fault.trace.back()).distance <
-                 lines_.strike) {
+  const bool is_led =
+      other >= 0 &&
+      (lines_.faults[other].source < fault.source ||
+       nearest_on_line(lines_.faults[other].trace, fault.trace.back()).distance < lines_.strike);
+  if (is_led) {
     fault.trace = led_to(fault.trace, lines_.faults[other].trace, cell_);
     kind = LineEnd::fault;
   } else if (end.kind == EndKind::grid_edge) {

@@ -134,7 +134,7 @@ Level SurfaceMaker::in_column(int column, int pillar, int layer) const {
     const CornerPlace below{corner.right, corner.back, true};
     const double lowest = grid_.z(column, base, below);
     if (layer >= grid_.size[2]) return lowest;
-    return std::clamp(grid_.z(column, layer, corner), lowest, highest);
+    return std::max(lowest, std::min(highest, grid_.z(column, layer, corner)));
   };
   Eigen::Matrix<double, 4, 3> matrix;
   Eigen::Vector4d right;

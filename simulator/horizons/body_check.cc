@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <numbers>
-#include <sstream>
+
+#include "simulator/common/text.h"
 
 namespace faultsim::horizons {
 namespace {
@@ -34,28 +34,19 @@ void check_box(const LayeredBody& body, NumberCheck& check) {
                "give one layer more than horizons");
   const BodyCells& cells = body.cells;
   check.demand(cells.at_faults > 0 && cells.far >= cells.at_faults && cells.growth > 0 &&
-                   std::isfinite(cells.far),
+                   std::isfinite(cells.far) && !(cells.at_dividers <= 0),
                "/cells", "sizes of cells make no sense",
                "give 0 < at_faults <= far, and a growth above 0");
-}
-
-/// To a thousandth.
-std::string degrees(double angle) {
-  std::ostringstream text;
-  text << std::setprecision(3) << std::fixed << angle * 180 / std::numbers::pi;
-  std::string digits = text.str();
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.back() == '.') digits.pop_back();
-  return digits;
 }
 
 void check_dip(const LayeredFault& fault, const std::string& pointer, NumberCheck& check) {
   const std::string name = "\"" + fault.name + "\"";
   if (fault.listric.empty()) {
     constexpr double kLeast = 5 * std::numbers::pi / 180;
-    check.demand(fault.dip >= kLeast && fault.dip <= std::numbers::pi / 2, pointer + "/dip",
-                 concat(name, " dips by ", degrees(fault.dip), " degrees"),
-                 "give 5 to 90 degrees, and the side that it dips to");
+    check.demand(
+        fault.dip >= kLeast && fault.dip <= std::numbers::pi / 2, pointer + "/dip",
+        concat(name, " dips by ", decimal(fault.dip * 180 / std::numbers::pi, 3), " degrees"),
+        "give 5 to 90 degrees, and the side that it dips to");
     return;
   }
   std::vector<DipPoint> points = fault.listric;
@@ -74,9 +65,10 @@ void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::
   const std::string name = "\"" + fault.name + "\"";
   check_dip(fault, pointer, check);
   const double top = fault.top.value_or(body.top), bottom = fault.bottom.value_or(body.base);
-  check.demand(top <= body.top && bottom >= body.base && top - bottom > body.cells.at_faults,
-               pointer, concat(name, " reaches from z ", bottom, " to z ", top, " m"),
-               "give a top above its bottom by more than a cell, within the box");
+  check.demand(
+      top <= body.top && bottom >= body.base && top - bottom > body.cells.at_faults, pointer,
+      concat(name, " reaches from z ", decimal(bottom, 1), " to z ", decimal(top, 1), " m"),
+      "give a top above its bottom by more than a cell, within the box");
   if (!fault.moved) return;
   const FaultThrow& moved = *fault.moved;
   check.demand(

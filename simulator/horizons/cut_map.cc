@@ -1,29 +1,11 @@
 #include "simulator/horizons/cut_map.h"
 
 #include <algorithm>
-#include <numeric>
+
+#include "simulator/common/disjoint_sets.h"
 
 namespace faultsim::horizons {
 namespace {
-
-/// Sets that grow together.
-class JoinedSets {
- public:
-  explicit JoinedSets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
-  int first(int k) {
-    while (parent_[k] != k) k = parent_[k] = parent_[parent_[k]];
-    return k;
-  }
-  /// The set keeps its lowest number.
-  void join(int a, int b) {
-    a = first(a);
-    b = first(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
 
 /// The sides that lie on the first n lines.
 std::vector<const MapSide*> sides_on_lines(const MapMesh& map, const std::vector<MapSide>& sides,
@@ -73,7 +55,7 @@ CutMap cut_map(const MapMesh& map) {
 CutMap cut_map(const MapMesh& map, const std::vector<MapSide>& sides,
                const std::vector<const MapSide*>& along) {
   // Corners of triangles are one place where triangles share a side that is no trace.
-  JoinedSets corners(3 * map.triangles.size());
+  DisjointSets corners(3 * map.triangles.size());
   const auto corner = [&](int triangle, int vertex) {
     return 3 * triangle + static_cast<int>(corner_at(map.triangles[triangle], vertex));
   };
@@ -87,7 +69,7 @@ CutMap cut_map(const MapMesh& map, const std::vector<MapSide>& sides,
   for (std::size_t t = 0; t < map.triangles.size(); ++t) {
     std::array<int, 3>& places = cut.places.emplace_back();
     for (std::size_t v = 0; v < 3; ++v) {
-      int& one = place[corners.first(static_cast<int>(3 * t + v))];
+      int& one = place[corners.find(static_cast<int>(3 * t + v))];
       if (one < 0) {
         one = static_cast<int>(cut.vertex.size());
         cut.vertex.push_back(map.triangles[t][v]);
@@ -109,13 +91,13 @@ std::vector<TracePiece> trace_pieces(const MapMesh& map, const std::vector<MapSi
 
 std::vector<int> parts_of(const MapMesh& map, const std::vector<MapSide>& sides,
                           const std::vector<const MapSide*>& walls) {
-  JoinedSets sets(map.triangles.size());
+  DisjointSets sets(map.triangles.size());
   for (const MapSide& side : sides)
     if (side.left >= 0 && side.right >= 0 && !std::ranges::binary_search(walls, &side))
       sets.join(side.left, side.right);
   std::vector<int> parts;
   for (std::size_t t = 0; t < map.triangles.size(); ++t)
-    parts.push_back(sets.first(static_cast<int>(t)));
+    parts.push_back(sets.find(static_cast<int>(t)));
   return parts;
 }
 

@@ -23,7 +23,8 @@ class PointSurface {
  public:
   /// @pre at least one point; those at one place agree.
   explicit PointSurface(std::vector<Eigen::Vector3d> points);
-  double at(const Eigen::Vector2d& place) const;
+  double at(const Eigen::Vector2d& place) const;  ///< z, m.
+  /// The points that at() comes from; `away` > 0 outside of all.
   PointSupport support_at(const Eigen::Vector2d& place) const;
   /// In an order of its own.
   const std::vector<Eigen::Vector3d>& points() const { return points_; }

@@ -120,9 +120,9 @@ struct LayeredFault {
 };
 
 /// Sizes of cells, m: at the faults `at_faults` and beside them `growth` per metre more, up to
-/// `far`; beside faults the same above and below the reservoir layers, to 8 times
-/// their width. Along dividers cells are
-/// `at_dividers` at most: no rock slides there, but pressures end.
+/// `far`; beside faults the same above and below the reservoir layers, to 8
+/// times their width. Along dividers cells are `at_dividers` at most: no rock slides there, but
+/// pressures end.
 struct BodyCells {
   double at_faults = 50;
   double far = 1000;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "simulator/common/text.h"
 #include "simulator/horizons/meet_pillar.h"
 #include "simulator/horizons/sided_horizon.h"
 #include "simulator/horizons/snapping.h"
@@ -40,8 +41,10 @@ class LevelFinder {
   void complain(const std::string& pointer, const std::string& what, int vertex, double z,
                 const std::string& cure) {
     const Vector3d at = pillars_.at(vertex, z);
-    problems_.push_back(
-        {pointer, 0, concat(what, " at x ", at.x(), ", y ", at.y(), ", z ", at.z(), " m"), cure});
+    problems_.push_back({pointer, 0,
+                         concat(what, " at x ", decimal(at.x(), 1), ", y ", decimal(at.y(), 1),
+                                ", z ", decimal(at.z(), 1), " m"),
+                         cure});
   }
 
   const LayeredBody& body_;

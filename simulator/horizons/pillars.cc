@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/horizons/map_operator.h"
 
 namespace faultsim::horizons {
@@ -121,7 +122,7 @@ std::vector<double> depths_to_check(const LayeredBody& body) {
 }
 
 std::string depth_place(const Vector2d& at, double z) {
-  return concat("x ", at.x(), ", y ", at.y(), ", z ", z, " m");
+  return "x " + decimal(at.x(), 1) + ", y " + decimal(at.y(), 1) + ", z " + decimal(z, 1) + " m";
 }
 
 /// Traces moved to other depths, each piece along its own direction.

@@ -56,7 +56,8 @@ std::vector<SidedPoints::Candidate> SidedPoints::nearest(const Vector2d& from,
         const double away = (on_map_[k] - from).norm();
         if (away <= within && !is_out_[k]) found.push_back({away, k});
       }
-  std::ranges::sort(found, [](const Candidate& p, const Candidate& q) {
+  const auto most = found.begin() + std::min(std::ssize(found), std::ptrdiff_t{kMostLookedAt});
+  std::ranges::partial_sort(found, most, [](const Candidate& p, const Candidate& q) {
     return std::pair(p.away, p.point) < std::pair(q.away, q.point);
   });
   return found;
@@ -77,7 +78,8 @@ std::optional<LocalFit> SidedPoints::fit(const MapBarriers& barriers, const Vect
   for (double within = 3 * bin_size_;; within *= 2) {
     const std::vector<Candidate> near = nearest(from, within);
     for (; n_looked_at < std::min(near.size(), kMostLookedAt); ++n_looked_at) {
-      const auto& [away, k] = near[n_looked_at];
+      const double away = near[n_looked_at].away;
+      const int k = near[n_looked_at].point;
       const Eigen::Vector3d& at = surface_.points()[k];
       const bool is_by_another = std::ranges::any_of(seen, [&](const SeenPoint& other) {
         return (other.at - at).head<2>().norm() < kThin * away;

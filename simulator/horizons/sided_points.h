@@ -28,7 +28,7 @@ class SidedPoints {
                const Eigen::Vector2d& xy) const;
   /// The fit to points seen from a place: up to 14 of the 400 nearest, each further from those
   /// taken before than 0.4 of its way, so that rows of points do not hide what is beyond them; as
-  /// at one and a half spacings of points from the nearest one, where that is further away. Empty
+  /// at 1.7 spacings of points from the nearest one, where that is further away. Empty
   /// if none is seen.
   std::optional<LocalFit> fit(const MapBarriers& barriers, const Eigen::Vector2d& from) const;
   /// The least and the largest depth of the points nearest to a place, of all sides.

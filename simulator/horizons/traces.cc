@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/horizons/delaunay.h"
 
 namespace faultsim::horizons {
@@ -97,7 +98,7 @@ void LineJoiner::join_to_box(int line, Vector2d& end) {
   if (least > cell_) {
     complain(line,
              concat("\"", all_.lines[line].name, "\" is to end at the edge of the box and ends ",
-                    least, " m before it, at ", map_place(end)),
+                    decimal(least, 1), " m before it, at ", map_place(end)),
              "draw it on to the edge, or let it end in the rock");
     return;
   }
@@ -350,7 +351,9 @@ MapLines LineJoiner::run() {
 
 }  // namespace
 
-std::string map_place(const Vector2d& at) { return concat("x ", at.x(), ", y ", at.y(), " m"); }
+std::string map_place(const Vector2d& at) {
+  return "x " + decimal(at.x(), 1) + ", y " + decimal(at.y(), 1) + " m";
+}
 
 NearestOnLine nearest_on_line(const std::vector<Vector2d>& line, const Vector2d& place) {
   NearestOnLine nearest{std::numeric_limits<double>::infinity(), line.front(), 0};

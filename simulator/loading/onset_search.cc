@@ -58,8 +58,10 @@ FaultOnset OnsetSearch::narrowed(const Step& step, const StageSummary::Began& be
     }
   }
   FaultOnset onset = at_end;
-  onset.depth = neighbours_.depth(place);
-  onset.pressures = pressures(step, place, to);
+  if (to < 1) {  // else they are the step's own, to the last bit
+    onset.depth = neighbours_.depth(place);
+    onset.pressures = pressures(step, place, to);
+  }
   onset.load_before = from;
   onset.load_after = to;
   onset.change_before = change_of_leading_side(onset.pressures, pressures(step, place, from));

@@ -83,6 +83,7 @@ class CaseRun {
   double last_time_ = 0;            ///< s, of the last step.
   const LoadStep* at_ = nullptr;    ///< the step being solved.
   bool searches_ = false;           ///< parts of it are, again.
+  bool narrows_ = true;  ///< onsets are searched within steps where the scene asks for it.
 };
 
 ContactWatch CaseRun::watch() const {
@@ -213,7 +214,7 @@ bool CaseRun::advance(const LoadStep& step, const StepLoads* before, const StepL
   result.temperature_change = loads.temperature_change;
   const Eigen::VectorXd jump_before = state_.jump;
   AcceptedStep accepted;
-  const bool searches = scene_.numerics.activation_tolerance > 0 && before != nullptr;
+  const bool searches = narrows_ && scene_.numerics.activation_tolerance > 0 && before != nullptr;
   if (probe_.accepted || searches) accepted.before = state_;
   SolvedStep solved = solver_->advance(step, loads, state_);
   const ContactReport& report = solved.contact;
@@ -320,6 +321,7 @@ CaseResult CaseRun::run() {
 
 /// The steps before are solved as run() does; their metrics are by the way.
 StepStart CaseRun::start_of(int step) {
+  narrows_ = false;
   const std::vector<LoadStep> steps = load_steps(scene_);
   const auto n_steps = static_cast<int>(steps.size());
   if (step < 0 || step >= n_steps) {

@@ -192,7 +192,8 @@ void condense(const FieldCells& cells, Eigen::MatrixXd stress, int n_threads,
     history.cell_forces = cells.bulk->bulk(0).dilatations(numbers);
   }
   const Eigen::MatrixXd& of = cells.bulk != nullptr ? (history.stress = std::move(stress)) : stress;
-  if (cells.block.traction.view().size() > 0) {
+  // A block without faults has no rows; one without influences has no columns either.
+  if (cells.block.traction.view().cols() > 0) {
     history.locked = locked_change(cells.block, of, n_threads);
     history.observed = cells.block.observed * of;
     return;

@@ -16,7 +16,8 @@ UncutMesh uncut_mesh(const Scene& scene);
 /// Of a material of the scene, its place among them.
 int material_index(const Scene& scene, const std::string& name);
 
-/// Cut, and its cells looked at. Throws InputError about the file.
+/// Cut, and its cells looked at. Throws InputError about the file, or the scene whose
+/// horizons it is built of.
 Mesh body_mesh(const Scene& scene);
 
 /// A cube of as many nodes, with planes of as many jumps: unknowns of tetrahedra cost what those of

@@ -52,10 +52,30 @@ bool asks_for_surface(const json& document) {
   return numerics != document.end() && numerics->is_object() && numerics->contains("surface");
 }
 
+/// What a change of the document at hand touches.
+struct Touched {
+  Members members;                     ///< that differ now.
+  std::vector<std::string> values;     ///< pointers to those put in the place of others, or
+  bool is_in_place = false;            ///< false: more has changed than these.
+  std::vector<std::string> placeless;  ///< pointers that have no place.
+};
+
+/// Whether places of faults change, and not their strengths and pressures alone.
+bool moves_faults(const Touched& touched) {
+  const auto is_strength = [](const std::string& at) {
+    return at.find("/friction/") != std::string::npos ||
+           at.find("/fault_pressure/") != std::string::npos;
+  };
+  return touched.members.contains("faults") &&
+         !(touched.is_in_place && std::ranges::all_of(touched.values, [&](const std::string& at) {
+             return !at.starts_with("/faults/") || is_strength(at);
+           }));
+}
+
 /// The sections that follow from these members; kAll where the scene must be read whole.
-unsigned sections_of(const Members& members, const ChangedScene& changed) {
+unsigned sections_of(const Touched& touched, const ChangedScene& changed) {
   unsigned sections = 0;
-  for (const std::string& name : members) {
+  for (const std::string& name : touched.members) {
     const auto found =
         std::ranges::find(kSections, name, &std::pair<std::string_view, SceneSection>::first);
     if (found == kSections.end()) return kAll;
@@ -68,21 +88,13 @@ unsigned sections_of(const Members& members, const ChangedScene& changed) {
   const bool is_mixed =  // what fields, tables and surfaces make of the rest
       scene.has_field() || asks_for_surface(changed.document.value) || scene.n_table_remarks > 0;
   // Where faults are is a part of such a body.
-  const bool is_of_traces = value_at(changed.document.value, "/geometry/kind") != nullptr &&
-                            *value_at(changed.document.value, "/geometry/kind") == "horizons" &&
-                            ((sections & kGeometry) != 0 || members.contains("faults"));
+  const json* const kind = value_at(changed.document.value, "/geometry/kind");
+  const bool is_of_traces = kind != nullptr && *kind == "horizons" &&
+                            ((sections & kGeometry) != 0 || moves_faults(touched));
   if (is_of_traces) return kAll;
   const bool is_small = (sections & ~unsigned{kInitialState | kFaults}) == 0;
   return is_mixed && !is_small ? unsigned{kAll} : sections;
 }
-
-/// What a change of the document at hand touches.
-struct Touched {
-  Members members;                     ///< that differ now.
-  std::vector<std::string> values;     ///< pointers to those put in the place of others, or
-  bool is_in_place = false;            ///< false: more has changed than these.
-  std::vector<std::string> placeless;  ///< pointers that have no place.
-};
 
 /// A reader of the document at hand, with the quantities that are known. Large designs keep them,
 /// as most of their values never change.
@@ -245,7 +257,7 @@ std::vector<std::string> change_scene(const JsonDocument& base, std::vector<Plac
   unsigned sections = kAll;
   if (was_of_base && has_members) {
     touched = move_document(base, values, changed);
-    if (touched.placeless.empty()) sections = sections_of(touched.members, changed);
+    if (touched.placeless.empty()) sections = sections_of(touched, changed);
   } else {
     changed.document.value = base.value;
     for (const auto& [pointer, value] : values) {

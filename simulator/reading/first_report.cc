@@ -68,7 +68,8 @@ void take_first_report(SceneReader& reader, Scene& scene) {
   const bool wanted = scene.initial.pressure_from == InitialPressure::first_report &&
                       scene.pressure_field.is_given();
   const auto is_sound = [&] {
-    return reader.sound("/geometry") && reader.sound("/initial_state") && reader.sound("/faults");
+    return reader.sound("/geometry") && reader.sound("/initial_state") && reader.sound("/faults") &&
+           reader.sound("/pressure_field");
   };
   if (!wanted || !is_sound()) return;
   if (scene.geometry_kind != GeometryKind::field) {

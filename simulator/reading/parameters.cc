@@ -5,6 +5,7 @@
 
 #include "simulator/common/near_miss.h"
 #include "simulator/common/ranges.h"
+#include "simulator/reading/fault_places.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/reading/scene_reader.h"
 
@@ -287,15 +288,11 @@ class Collector {
   bool is_hidden(const std::string& pointer) const {
     const std::string kind = text_at(document_.value, "/geometry/kind");
     const bool field = kind == "field";
-    static const std::vector<std::string> of_boxes = {"center", "strike", "length", "width",
-                                                      "shape"};
-    static const std::vector<std::string> of_horizons = {
-        "trace",  "first_end", "last_end",    "listric",     "top",
-        "bottom", "throw",     "throw_share", "throw_reach", "throw_taper"};
-    if (pointer.rfind("/faults/", 0) == 0 && pointer.find('/', 8) == pointer.rfind('/')) {
-      const std::string key = pointer.substr(pointer.rfind('/') + 1);
-      if (kind != "box" && kind != "mesh" && contains(of_boxes, key)) return true;
-      if (kind != "horizons" && contains(of_horizons, key)) return true;
+    constexpr std::string_view kFaults = "/faults/";
+    const std::size_t slash = pointer.rfind('/');
+    if (pointer.starts_with(kFaults) && pointer.find('/', kFaults.size()) == slash) {
+      const std::string_view key = std::string_view(pointer).substr(slash + 1);
+      if (contains(all_place_keys(), key) && !contains(place_keys(kind), key)) return true;
     }
     const bool absent = (pointer == "/pressure_field" || pointer == "/temperature_field") &&
                         child_at(document_.value, pointer.substr(1)) == nullptr;

@@ -1,10 +1,14 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
 #include "simulator/reading/csv_tables.h"
+#include "simulator/reading/fault_places.h"
 #include "simulator/reading/fault_pressure_csv.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
@@ -212,36 +216,23 @@ void read_surface_place(SceneReader& reader, const std::string& at, const Fault&
 
 /// Keys that say where a fault is, in bodies of another kind.
 void refuse_other_places(SceneReader& reader, const std::string& at) {
-  struct PlaceKeys {
-    std::vector<std::string> kinds;
-    std::vector<const char*> keys;
+  struct Kind {
+    std::string_view name, what, cure;
   };
-  static const std::vector<PlaceKeys> places = {
-      {{"box"}, {"center", "strike", "length", "width", "shape"}},
-      {{"field", "box", "horizons"}, {"dip_from_vertical"}},
-      {{"horizons"},
-       {"trace", "first_end", "last_end", "listric", "top", "bottom", "throw", "throw_share",
-        "throw_reach", "throw_taper"}}};
-  const std::string kind = reader.text("/geometry/kind");
-  const bool is_field = kind == "field", is_mesh = kind == "mesh", is_box = kind == "box";
+  constexpr std::array<Kind, 4> kKinds = {
+      {{"field", "faults of a field lie at the ends of the blocks",
+        "remove it; blocks, fault_length and fault_overshoot say where faults are"},
+       {"box", "a fault of a box is a patch",
+        "remove it; center, length and width say where it is"},
+       {"mesh", "a fault of a mesh lies where its physical surface does", "remove it"},
+       {"horizons", "a fault of horizons has a trace",
+        "remove it; trace, top and bottom say where it is"}}};
+  const auto* const kind = std::ranges::find(kKinds, reader.text("/geometry/kind"), &Kind::name);
+  if (kind == kKinds.end()) return;  // said
   const auto place_of = places_in(reader, at);
-  for (const PlaceKeys& place : places) {
-    if (contains(place.kinds, kind)) continue;
-    for (const char* key : place.keys) {
-      if (place_of(key).value == nullptr) continue;
-      if (is_field) {
-        reader.problem(at + key, "faults of a field lie at the ends of the blocks",
-                       "remove it; blocks, fault_length and fault_overshoot say where faults are");
-      } else if (is_mesh) {
-        reader.problem(at + key, "a fault of a mesh lies where its physical surface does",
-                       "remove it");
-      } else {
-        reader.problem(at + key,
-                       is_box ? "a fault of a box is a patch" : "a fault of horizons has a trace",
-                       is_box ? "remove it; center, length and width say where it is"
-                              : "remove it; trace, top and bottom say where it is");
-      }
-    }
+  for (const std::string_view key : all_place_keys()) {
+    if (contains(place_keys(kind->name), key) || place_of(key).value == nullptr) continue;
+    reader.problem(at + std::string(key), std::string(kind->what), std::string(kind->cure));
   }
 }
 

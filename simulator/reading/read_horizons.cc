@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <iomanip>
 #include <map>
@@ -14,6 +13,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/horizons/build_body.h"
 #include "simulator/mesh/uncut_mesh.h"
+#include "simulator/reading/fault_places.h"
 #include "simulator/reading/read_body.h"
 #include "simulator/reading/read_layered_body.h"
 #include "simulator/scene/mesh_body.h"
@@ -22,21 +22,15 @@
 namespace faultsim {
 namespace {
 
-/// Keys of a fault that say where it is.
-constexpr std::array kPlaceKeys = {"name",    "trace",       "first_end",   "last_end",
-                                   "listric", "top",         "bottom",      "dip_from_vertical",
-                                   "throw",   "throw_share", "throw_reach", "throw_taper"};
-
-/// Whether all is sound that a body is built of; of faults their places alone.
+/// Whether all is sound that a body is built of; of faults their names and places alone.
 bool is_buildable(const SceneReader& reader) {
-  const auto lacks_name = [&](const std::string& at) { return !reader.sound(at + "/name"); };
   if (!reader.sound("/geometry") || !reader.sound("/mesh") || !reader.has("/mesh/strike"))
     return false;
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
     const std::string at = element("/faults", i);
-    if (lacks_name(at) || !reader.has(at + "/trace")) return false;
-    for (const char* key : kPlaceKeys)
-      if (!reader.sound(at + "/" + key)) return false;
+    if (!reader.sound(at + "/name") || !reader.has(at + "/trace")) return false;
+    for (const std::string_view key : place_keys("horizons"))
+      if (!reader.sound(at + "/" + std::string(key))) return false;
   }
   return true;
 }
@@ -48,8 +42,10 @@ std::string key_of(const SceneReader& reader, const std::string& tables) {
     if (const nlohmann::json* value = reader.find(member)) text += value->dump() + "\n";
   }
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
-    for (const char* key : kPlaceKeys) {
-      const nlohmann::json* value = reader.find(element("/faults", i) + "/" + key);
+    const std::string at = element("/faults", i);
+    text += reader.text(at + "/name") + "\n";
+    for (const std::string_view key : place_keys("horizons")) {
+      const nlohmann::json* value = reader.find(at + "/" + std::string(key));
       text += (value == nullptr ? "-" : value->dump()) + "\n";
     }
   }
@@ -125,26 +121,28 @@ std::vector<std::string> remarks_of(const horizons::BuiltBody& built) {
   return remarks;
 }
 
-BodyMesh build(const BodyOfKeys& keys, const std::string& source) {
+/// A box of the mesh, without conditions on its boundary.
+BoxGeometry build(const BodyOfKeys& keys, const std::string& source) {
   const horizons::BuiltBody built = horizons::build_body(keys.body, source);
   Volumes volumes = volumes_of(keys, built);
-  BodyMesh mesh;
-  mesh.name = source;
+  BoxGeometry box;
+  BodyMesh& mesh = box.mesh.emplace();
   mesh.content = named_mesh(built, volumes);
   mesh.volumes = std::move(volumes.all);
   mesh.remarks = remarks_of(built);
-  return mesh;
+  describe_mesh(box);
+  return box;
 }
 
 /// The last bodies: cases of a campaign that change strengths or pressures share one.
 class LastBodies {
  public:
-  std::optional<BodyMesh> find(const std::string& key) {
+  std::optional<BoxGeometry> find(const std::string& key) {
     const std::scoped_lock lock(mutex_);
     const auto at = std::ranges::find(kept_, key, &Kept::first);
     return at == kept_.end() ? std::nullopt : std::optional(at->second);
   }
-  void keep(const std::string& key, const BodyMesh& body) {
+  void keep(const std::string& key, const BoxGeometry& body) {
     constexpr std::size_t kMost = 4;
     const std::scoped_lock lock(mutex_);
     kept_.emplace_front(key, body);
@@ -152,22 +150,18 @@ class LastBodies {
   }
 
  private:
-  using Kept = std::pair<std::string, BodyMesh>;
+  using Kept = std::pair<std::string, BoxGeometry>;
   std::mutex mutex_;
   std::deque<Kept> kept_;
 };
 
-std::optional<BodyMesh> body_of(SceneReader& reader, const BodyOfKeys& keys) {
+std::optional<BoxGeometry> body_of(SceneReader& reader, const BodyOfKeys& keys) {
   static LastBodies last;
-  const std::string& source = reader.document().source;
   const std::string key = key_of(reader, keys.tables);
-  std::optional<BodyMesh> body = last.find(key);
-  if (body) {
-    body->name = source;
-    return body;
-  }
+  std::optional<BoxGeometry> body = last.find(key);
+  if (body) return body;
   try {
-    body = build(keys, source);
+    body = build(keys, reader.document().source);
   } catch (const InputError& error) {
     for (const Problem& problem : error.problems())
       reader.problem(scene_pointer(problem.pointer), problem.what, problem.cure);
@@ -200,10 +194,10 @@ void read_horizons(SceneReader& reader, Scene& scene) {
   const BodyOfKeys keys = read_layered_body(reader, scene);
   refuse_names_of_sides(reader);
   if (!is_buildable(reader)) return;
-  std::optional<BodyMesh> body = body_of(reader, keys);
+  std::optional<BoxGeometry> body = body_of(reader, keys);
   if (!body) return;
-  scene.box.mesh = *std::move(body);
-  describe_mesh(scene.box);
+  scene.box = *std::move(body);
+  scene.box.mesh->name = reader.document().source;
   if (reader.has("/geometry/boundary")) return read_boundary(reader, scene.box);
   hold_sides(scene.box);
 }

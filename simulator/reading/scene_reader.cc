@@ -194,7 +194,8 @@ std::vector<std::string> SceneReader::keys(const std::string& pointer) const {
   std::vector<std::string> names;
   const json* value = find(pointer);
   if (value == nullptr || !value->is_object()) return names;
-  for (const auto& [key, inner] : value->items()) names.push_back(key);
+  for (const auto& [key, inner] : value->items())
+    if (key != "comment") names.push_back(key);
   return names;
 }
 

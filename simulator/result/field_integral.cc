@@ -8,14 +8,14 @@
 namespace faultsim {
 namespace {
 
-std::string line_of(const FieldIntegral& one) {
+std::string line_of(const FieldIntegral& one, bool plane_strain) {
   const bool is_pressure = one.field == "pressure";
   const double unit = is_pressure ? 1e5 : 1;  // Pa
   std::string text = formatted(
       "%s field on %s: %.4g %% of its volume is covered; of the integral of the change that acts "
-      "at the last report, %.4g %s m3, the flow result has %.4g",
+      "at the last report, %.4g %s %s, the flow result has %.4g",
       one.field.c_str(), one.region.c_str(), 100 * one.covered / one.volume, one.acts / unit,
-      is_pressure ? "bar" : "K", one.has / unit);
+      is_pressure ? "bar" : "K", plane_strain ? "m3/m" : "m3", one.has / unit);
   if (one.assumed > 0) {
     text += formatted("; %.3g %% is assumed: ", 100 * one.assumed_share());
     if (one.n_outside > 0)
@@ -68,10 +68,11 @@ nlohmann::json field_integrals_to_json(const std::vector<FieldIntegral>& integra
   return rows;
 }
 
-std::string field_integrals_to_text(const std::vector<FieldIntegral>& integrals) {
+std::string field_integrals_to_text(const std::vector<FieldIntegral>& integrals,
+                                    bool plane_strain) {
   std::string text;
   for (const FieldIntegral& one : integrals) {
-    if (!one.is_whole()) text += line_of(one);
+    if (!one.is_whole()) text += line_of(one, plane_strain);
   }
   return text;
 }

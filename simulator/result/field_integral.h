@@ -34,6 +34,8 @@ double assumed_share(const std::vector<FieldIntegral>& integrals);
 nlohmann::json field_integrals_to_json(const std::vector<FieldIntegral>& integrals);
 
 /// What is assumed, a line for each compartment that is not covered whole; "" where all are.
-std::string field_integrals_to_text(const std::vector<FieldIntegral>& integrals);
+/// @param plane_strain  integrals are per metre of strike.
+std::string field_integrals_to_text(const std::vector<FieldIntegral>& integrals,
+                                    bool plane_strain = false);
 
 }  // namespace faultsim

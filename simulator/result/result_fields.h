@@ -118,9 +118,9 @@ void for_each_field(Of<FaultOnset> auto& o, auto&& visit) {
   visit(Field{"step"}, o.step);
   visit(Field{"depth_m"}, o.depth);
   visit(Field{"pressures"}, o.pressures);
-  visit(Field{.key = "load_factor_before", .since = 20}, o.load_before);
-  visit(Field{.key = "load_factor_after", .since = 20}, o.load_after);
-  visit(Field{.key = "change_before_pa", .since = 20}, o.change_before);
+  visit(Field{.key = "load_factor_before", .since = 21}, o.load_before);
+  visit(Field{.key = "load_factor_after", .since = 21}, o.load_after);
+  visit(Field{.key = "change_before_pa", .since = 21}, o.change_before);
 }
 
 void for_each_field(Of<FaultStageMetrics> auto& s, auto&& visit) {

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "made_scene.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/grid_pictures.h"
 #include "simulator/grid_scene/line_check.h"
 #include "simulator/grid_scene/mesh_size.h"
 #include "simulator/grid_scene/outline.h"
+#include "tests/unit/grid_scene/made_scene.h"
 
 namespace faultsim::grid_scene {
 namespace {

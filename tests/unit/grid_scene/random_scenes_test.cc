@@ -6,21 +6,17 @@
 #include <cmath>
 #include <iostream>
 
-#include "made_scene.h"
 #include "simulator/common/errors.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/line_check.h"
 #include "simulator/horizons/build_body.h"
 #include "tests/unit/corner_point/random_grid.h"
+#include "tests/unit/grid_scene/made_scene.h"
 
 namespace faultsim::grid_scene {
 namespace {
 
-using corner_point::cross_product;
-using corner_point::MadeGrid;
-using corner_point::nearest_on_line;
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 
 /// A flat reservoir between the lines of a scene.
 horizons::LayeredBody flat_body(const GridScene& made) {
@@ -77,7 +73,7 @@ TEST(RandomScenes, HaveNoPointOnTheWrongSideOfAFault) {
   for (unsigned seed = 0; seed < 30; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> angle(0, std::numbers::pi), lean(-1, 1);
-    MadeGrid grid{.size = {30, 30, 2}, .thickness = {15, 25}, .faults = {}};
+    corner_point::MadeGrid grid{.size = {30, 30, 2}, .thickness = {15, 25}, .faults = {}};
     grid.lean = {lean(random), lean(random)};
     const double direction = angle(random);
     const Vector2d middle(1500, 1200),
@@ -90,16 +86,16 @@ TEST(RandomScenes, HaveNoPointOnTheWrongSideOfAFault) {
       const double below = surface.layer < 0 ? 0 : 40;
       // Tips beyond the grid are of both sides.
       for (std::size_t p = 0; p + 2 < surface.points.size(); ++p) {
-        const Vector3d& at = surface.points[p];
+        const Eigen::Vector3d& at = surface.points[p];
         const Polyline line = fault.at(at.z(), all.made.lines.reference_z);
-        const auto on = nearest_on_line(line, at.head<2>());
+        const auto on = corner_point::nearest_on_line(line, at.head<2>());
         if (on.along == 0 || on.along >= corner_point::line_length(line) || on.distance > 300)
           continue;
         n_near += 1;
         const Vector2d pillar = at.head<2>() - grid.lean * (grid.reference - at.z());
         const bool is_low = at.z() - (corner_point::made_top(pillar) - below) < -30;
         const Vector2d piece = line[on.piece + 1] - line[on.piece];
-        const bool is_right = cross_product(piece, at.head<2>() - line[on.piece]) < 0;
+        const bool is_right = corner_point::cross_product(piece, at.head<2>() - line[on.piece]) < 0;
         // The fault was made from `from` to `to`; its trace goes from the west.
         const bool runs_back = piece.dot(along) < 0;
         EXPECT_EQ(is_low, is_right != runs_back) << seed << ", " << at.transpose();

@@ -178,6 +178,18 @@ TEST_F(HorizonsScene, EveryProblemOfKeysIsSaidAtOnce) {
             "say where it is\n");
 }
 
+TEST_F(HorizonsScene, CommentsAndAMissingKindSayNothingOfFaults) {
+  EXPECT_EQ(said({{"/mesh/comment", "as fine as it goes"}}), "");
+  JsonDocument bare = document();
+  bare.value["geometry"].erase("kind");
+  try {
+    read_scene(bare);
+    ADD_FAILURE() << "it has no kind";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), testing::Not(HasSubstr("/faults/0/trace")));
+  }
+}
+
 TEST_F(HorizonsScene, WhatCannotBeBuiltIsSaidWithItsPlace) {
   EXPECT_THAT(said({{"/geometry/layers/2/top", "1880 m"}}), HasSubstr("/geometry/layers/"));
   EXPECT_THAT(said({{"/faults/0/dip_from_vertical", "88 deg"}}),
@@ -218,6 +230,8 @@ TEST_F(HorizonsScene, AChangeOfTheBaseIsReadLikeTheWhole) {
            {"/faults/0/throw", "70 m"},
            {"/geometry/depth", "4100 m"},
            {"/mesh/strike", "250 m"},
+           {"/faults/0/friction/friction_angle", "25 deg"},
+           {"/faults/0/friction/friction_angle", "22 deg"},
            {"/friction/friction_angle", "20 deg"}}) {
     std::vector<Problem> problems;
     change_scene(base, {{pointer, value}}, Relations::checked, changed, problems);

@@ -41,6 +41,7 @@ TEST(ExactNumber, ReadsBackAsTheSameBitsInTheFewestDigits) {
 TEST(CsvField, IsQuotedWhereItMustBe) {
   EXPECT_EQ(csv_field("plain 1.5"), "plain 1.5");
   EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+  EXPECT_EQ(csv_field("#1"), "\"#1\"") << "no comment";
   EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
   EXPECT_EQ(csv_name("two\nlines"), "\"two\nlines\"");
