@@ -51,8 +51,9 @@ std::string prepared_text(const FaultOperator& op, const std::optional<CaseSurfa
 }
 
 /// Pressures and temperatures in the cells, beside the displacements.
-void add_cell_changes(const Scene& scene, const Mesh& mesh, std::vector<VolumeSnapshot>& volume) {
-  const CellChanges changes(scene, mesh);
+void add_cell_changes(const Scene& scene, const Mesh& mesh, bool half_domain,
+                      std::vector<VolumeSnapshot>& volume) {
+  const CellChanges changes(scene, mesh, half_domain);
   for (VolumeSnapshot& one : volume) {
     if (changes.has_pressure()) one.pressure_change = changes.pressure(one.time);
     if (changes.has_temperature()) one.temperature_change = changes.temperature(one.time);
@@ -161,7 +162,7 @@ ExitCode run_command(const RunArguments& arguments) {
   if (writer) writer->finish();
   if (scene.output.volume_fields) {
     const Mesh& mesh = is_coupled ? coupled->mesh() : prepared.bulk->bulk(0).problem().mesh;
-    add_cell_changes(scene, mesh, volume);
+    add_cell_changes(scene, mesh, loaded.plan.half_domain, volume);
     write_volume(output.path(), mesh.nodes, {mesh.cells.nodes(), mesh.cells.n_nodes()},
                  mesh.material, volume);
   }

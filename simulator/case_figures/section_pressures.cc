@@ -53,7 +53,8 @@ SectionPressures::SectionPressures(const Scene& scene, double y)
     change_ = Eigen::MatrixXd::Zero(std::ssize(cells), std::ssize(time_));
     return;
   }
-  FlowMapping mapping = map_flow(near, cells, region_names(scene), OutsideRule::unchanged);
+  FlowMapping mapping =
+      map_flow(near, cells, region_names(scene), {.outside = OutsideRule::unchanged});
   change_ = mapped_change(mapping, near, load.reference, load.reports);
   covered_ = std::move(mapping.covered);
 }

@@ -1,11 +1,13 @@
 #include "simulator/flow/flow_mapping.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/flow/flow_cell_search.h"
+#include "simulator/flow/whole_cells.h"
 
 namespace faultsim {
 namespace {
@@ -40,6 +42,86 @@ std::string where(const MappedCell& cell) {
 constexpr double kTwice = 0.01;
 constexpr double kWhole = 1e-6;  ///< of a cell's volume: less than that is missing of one covered.
 
+/// Overlaps become weights, and coverage.
+void take_means(const MappedCell& cell, std::size_t c, FlowMapping& mapping) {
+  const double volume = cell_volume(cell.corners);
+  double covered = 0;
+  for (const FlowMapping::Weight& overlap : mapping.weights[c]) covered += overlap.value;
+  for (FlowMapping::Weight& weight : mapping.weights[c]) weight.value /= covered;
+  RegionCoverage& region = mapping.coverage.at(static_cast<std::size_t>(cell.region));
+  region.volume += cell.fraction * volume;
+  mapping.covered.push_back(std::min(covered / volume, 1.0));
+  region.covered += cell.fraction * std::min(covered, volume);
+  ++region.n_cells;
+  if (covered == 0)
+    ++region.n_outside;
+  else if (covered < (1 - kWhole) * volume)
+    ++region.n_partly;
+}
+
+/// Flow cells are given to compartments, and overlaps with those of another one forgotten.
+void divide_flow_cells(const FlowField& field, const std::vector<MappedCell>& cells,
+                       const std::array<double, 2>& y_range, FlowMapping& mapping) {
+  if (cells.empty()) return;
+  const std::vector<int> owner =
+      compartments_of_flow_cells(field, cells, mapping.weights, mapping.coverage.size());
+  mapping.flow_cells.resize(mapping.coverage.size());
+  for (std::size_t f = 0; f < owner.size(); ++f) {
+    const double volume = volume_between(field.cells[f], y_range);
+    if (volume > 0)
+      mapping.flow_cells[static_cast<std::size_t>(owner[f])].push_back(
+          {.flow_cell = static_cast<int>(f), .value = volume});
+  }
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    std::erase_if(mapping.weights[c], [&](const FlowMapping::Weight& overlap) {
+      return owner[static_cast<std::size_t>(overlap.flow_cell)] != cells[c].region;
+    });
+  }
+}
+
+std::vector<FlowCell> cells_of(const FlowField& field,
+                               const std::vector<FlowMapping::Weight>& own) {
+  std::vector<FlowCell> cells;
+  for (const FlowMapping::Weight& one : own)
+    cells.push_back(field.cells[static_cast<std::size_t>(one.flow_cell)]);
+  return cells;
+}
+
+/// Finds the nearest of the flow cells that count with one compartment.
+class NearestOfRegion {
+ public:
+  NearestOfRegion(const FlowField& field, const std::vector<FlowMapping::Weight>& own)
+      : own_(own), cells_(cells_of(field, own)), search_(cells_) {}
+  NearestOfRegion(const NearestOfRegion&) = delete;  // the search looks at the cells
+  int operator()(const Eigen::Vector3d& place) const {
+    return own_[static_cast<std::size_t>(search_.nearest(place))].flow_cell;
+  }
+
+ private:
+  const std::vector<FlowMapping::Weight>& own_;
+  std::vector<FlowCell> cells_;
+  FlowCellSearch search_;
+};
+
+/// Cells that take from none: the nearest flow cell, of their own compartment where those are
+/// known.
+void take_nearest(const FlowField& field, const std::vector<MappedCell>& cells,
+                  const FlowCellSearch& search, FlowMapping& mapping) {
+  std::map<std::size_t, NearestOfRegion> of_region;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    if (!mapping.weights[c].empty()) continue;
+    const Eigen::Vector3d at = centre_of(cells[c].corners);
+    const auto region = static_cast<std::size_t>(cells[c].region);
+    const bool has_own = !mapping.flow_cells.empty() && !mapping.flow_cells[region].empty();
+    int nearest = -1;
+    if (has_own)
+      nearest = of_region.try_emplace(region, field, mapping.flow_cells[region]).first->second(at);
+    else
+      nearest = search.nearest(at);
+    mapping.weights[c].push_back({.flow_cell = nearest, .value = 1});
+  }
+}
+
 }  // namespace
 
 CellCorners between_sides(const std::array<double, 2>& west, const std::array<double, 2>& east,
@@ -54,41 +136,31 @@ CellCorners between_sides(const std::array<double, 2>& west, const std::array<do
 }
 
 CellCorners at_section(CellCorners corners, double y) {
-  constexpr double kHalf = 0.5;  // m
   const double middle = centre_of(corners).y();
-  for (Eigen::Vector3d& corner : corners) corner.y() = y + (corner.y() < middle ? -kHalf : kHalf);
+  for (Eigen::Vector3d& corner : corners)
+    corner.y() = y + (corner.y() < middle ? -kHalfSection : kHalfSection);
   return corners;
 }
 
 FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
-                     const std::vector<std::string>& region_names, OutsideRule rule) {
+                     const std::vector<std::string>& region_names, const MappingRules& rules) {
   FlowMapping mapping;
-  mapping.weights.resize(cells.size());
-  mapping.covered.resize(cells.size());
   mapping.coverage.resize(region_names.size());
   const FlowCellSearch search(field.cells);
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    const MappedCell& cell = cells[c];
-    auto& weights = mapping.weights[c];
+  for (const MappedCell& cell : cells) {
+    std::vector<FlowMapping::Weight>& overlaps = mapping.weights.emplace_back();
     const double volume = cell_volume(cell.corners);
-    const double covered = overlaps_of(cell, field, search, weights);
-    if (covered > (1 + kTwice) * volume) {
+    if (overlaps_of(cell, field, search, overlaps) > (1 + kTwice) * volume) {
       throw InputError("flow field", "flow cells lie over each other at " + where(cell),
                        "give every place one cell, without refined parents");
     }
-    for (FlowMapping::Weight& weight : weights) weight.value /= covered;
-    RegionCoverage& region = mapping.coverage.at(cell.region);
-    region.volume += cell.fraction * volume;
-    mapping.covered[c] = std::min(covered / volume, 1.0);
-    region.covered += cell.fraction * std::min(covered, volume);
-    ++region.n_cells;
-    if (covered == 0)
-      ++region.n_outside;
-    else if (covered < (1 - kWhole) * volume)
-      ++region.n_partly;
-    if (covered == 0 && rule == OutsideRule::nearest)
-      weights.push_back({.flow_cell = search.nearest(centre_of(cell.corners)), .value = 1});
+    mapping.region.push_back(cell.region);
+    mapping.part.push_back(cell.fraction * volume);
   }
+  if (rules.integral == IntegralRule::flow_grid)
+    divide_flow_cells(field, cells, rules.y_range, mapping);
+  for (std::size_t c = 0; c < cells.size(); ++c) take_means(cells[c], c, mapping);
+  if (rules.outside == OutsideRule::nearest) take_nearest(field, cells, search, mapping);
   return mapping;
 }
 

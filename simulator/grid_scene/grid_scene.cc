@@ -280,7 +280,12 @@ void SceneMaker::add_stage_without_reports() {
 
 void SceneMaker::add_loading() {
   if (pressures_ == nullptr || pressures_->date.size() < 2) return add_stage_without_reports();
-  made_.scene["pressure_field"] = {{"file", options_.field_file}, {"outside", "nearest"}};
+  made_.scene["pressure_field"] = {
+      {"file", options_.field_file}, {"outside", "nearest"}, {"integral", "flow_grid"}};
+  say(RemarkKind::choice,
+      "changes of pressure are scaled, by some percent, so that their integral over each "
+      "compartment is that of the grid's cells, though straight lines do not follow them",
+      "/pressure_field/integral");
   made_.scene["stages"] =
       Json::array({{{"name", "history"}, {"until", moment(pressures_->date.back())}}});
   say(RemarkKind::recognised,

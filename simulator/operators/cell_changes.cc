@@ -2,31 +2,25 @@
 
 #include "simulator/loads/field_history.h"
 #include "simulator/loads/history.h"
-#include "simulator/plan/field_bodies.h"
+#include "simulator/operators/mapped_load.h"
 
 namespace faultsim {
 
-CellChanges::CellChanges(const Scene& scene, const Mesh& mesh) : scene_(scene), mesh_(mesh) {
+CellChanges::CellChanges(const Scene& scene, const Mesh& mesh, bool half_domain)
+    : scene_(scene), mesh_(mesh) {
   for (std::size_t c = 0; c < mesh.cells.size(); ++c) {
     if (mesh.region[c] >= 0) cells_.push_back(static_cast<int>(c));
   }
-  pressure_ = mapped_onto_cells(scene.pressure_field);
-  temperature_ = mapped_onto_cells(scene.temperature_field);
+  pressure_ = mapped_onto_cells(scene.pressure_field, half_domain);
+  temperature_ = mapped_onto_cells(scene.temperature_field, half_domain);
 }
 
-CellChanges::OfCells CellChanges::mapped_onto_cells(const FlowLoad& load) const {
+CellChanges::OfCells CellChanges::mapped_onto_cells(const FlowLoad& load, bool half_domain) const {
   if (!load.is_given()) return {};
-  std::vector<MappedCell> bodies;
-  for (const int cell : cells_) {
-    MappedCell body{.corners = corners_of_cell(mesh_, cell),
-                    .region = mesh_.region[cell],
-                    .fraction = mesh_.region_fraction[cell]};
-    if (mesh_.plane_strain) body.corners = at_section(body.corners, load.y);
-    bodies.push_back(body);
-  }
-  const FlowMapping mapping =
-      map_flow(*field_in_scene(load), bodies, region_names(scene_), load.outside);
-  return {&load, mapped_change(mapping, *load.field, load.reference, load.reports)};
+  std::vector<CellOfRegion> cells;
+  for (const int cell : cells_)
+    cells.push_back({cell, mesh_.region[cell], mesh_.region_fraction[cell]});
+  return {&load, map_load(load, mesh_, cells, region_names(scene_), half_domain).change};
 }
 
 Eigen::VectorXd CellChanges::all_cells(const OfCells& field, double time) const {

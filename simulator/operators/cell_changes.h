@@ -11,11 +11,11 @@ namespace faultsim {
 
 /// What pressures and temperatures do in the cells of a mesh, for pictures: in the part of a cell
 /// that is in a compartment, as it acts there; 0 in cells of none. Of flow results the means that
-/// act (flow_mapping.h, nearest cells included), of histories those of the compartment.
+/// act (mapped_load.h, nearest cells included), of histories those of the compartment.
 class CellChanges {
  public:
-  /// @pre scene and mesh outlive this. Throws InputError as map_flow() does.
-  CellChanges(const Scene& scene, const Mesh& mesh);
+  /// @pre scene and mesh outlive this. Throws InputError as map_load() does.
+  CellChanges(const Scene& scene, const Mesh& mesh, bool half_domain);
 
   /// Δp since the initial state, Pa, or ΔT, K, per cell of the mesh.
   Eigen::VectorXd pressure(double time) const;
@@ -30,7 +30,7 @@ class CellChanges {
     const FlowLoad* load = nullptr;  ///< null: there is no such field.
     Eigen::MatrixXd change = {};     ///< n_cells_ x n_reports.
   };
-  OfCells mapped_onto_cells(const FlowLoad& load) const;
+  OfCells mapped_onto_cells(const FlowLoad& load, bool half_domain) const;
   /// A value per compartment, and one per cell in compartments, spread over the mesh.
   Eigen::VectorXd of_regions(const std::vector<double>& change) const;
   Eigen::VectorXd all_cells(const OfCells& field, double time) const;

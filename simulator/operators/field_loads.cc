@@ -10,21 +10,16 @@
 #include "simulator/common/text.h"
 #include "simulator/condensation/fault_geometry.h"
 #include "simulator/loads/history.h"
-#include "simulator/plan/field_bodies.h"
+#include "simulator/operators/mapped_load.h"
 #include "simulator/scene/identity.h"
 
 namespace faultsim {
 namespace {
 
-std::vector<MappedCell> mapped_cells(const Mesh& mesh, const InfluenceBlock& block,
-                                     const FlowLoad& load) {
-  std::vector<MappedCell> cells;
-  for (const InfluenceCell& cell : block.cells) {
-    MappedCell mapped{.corners = {}, .region = cell.region, .fraction = cell.fraction};
-    mapped.corners = corners_of_cell(mesh, cell.cell);
-    if (mesh.plane_strain) mapped.corners = at_section(mapped.corners, load.y);
-    cells.push_back(mapped);
-  }
+std::vector<CellOfRegion> cells_of(const InfluenceBlock& block) {
+  std::vector<CellOfRegion> cells;
+  for (const InfluenceCell& cell : block.cells)
+    cells.push_back({cell.cell, cell.region, cell.fraction});
   return cells;
 }
 
@@ -124,18 +119,14 @@ struct MappedField {
   const FlowLoad& load;
   std::string quantity;  ///< "pressure".
   std::string name = quantity + " field";
-  FlowMapping mapping = {};
-  Eigen::MatrixXd change =
-      {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
+  MappedLoad mapped = {};  ///< in the block's cells.
 };
 
-MappedField map_field(const FlowLoad& load, const std::string& quantity, const Mesh& mesh,
-                      const InfluenceBlock& block) {
+MappedField map_field(const FlowLoad& load, const std::string& quantity, const FieldCells& cells) {
   MappedField field{.load = load, .quantity = quantity};
-  if (!load.is_given()) return field;
-  field.mapping = map_flow(*field_in_scene(load), mapped_cells(mesh, block, load),
-                           block.region_names, load.outside);
-  field.change = mapped_change(field.mapping, *load.field, load.reference, load.reports);
+  if (load.is_given())
+    field.mapped = map_load(load, cells.mesh, cells_of(cells.block), cells.block.region_names,
+                            cells.op.geometry.half_domain);
   return field;
 }
 
@@ -152,33 +143,42 @@ Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& t
                           Eigen::Index n_cells) {
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(n_cells, std::ssize(times));
   for (Eigen::Index t = 0; field.load.is_given() && t < change.cols(); ++t)
-    change.col(t) = at_time(field.load.time, field.change, times[t]);
+    change.col(t) = at_time(field.load.time, field.mapped.change, times[t]);
   return change;
 }
 
 /// Of every compartment; none of a field that is not there.
 std::vector<FieldIntegral> integrals_of(const MappedField& field, const InfluenceBlock& block) {
   std::vector<FieldIntegral> integrals;
+  const auto& [mapping, change, balance] = field.mapped;
   for (std::size_t r = 0; field.load.is_given() && r < block.region_names.size(); ++r) {
-    const RegionCoverage& region = field.mapping.coverage[r];
-    integrals.push_back({.field = field.quantity,
-                         .region = block.region_names[r],
-                         .n_cells = region.n_cells,
-                         .n_outside = region.n_outside,
-                         .n_partly = region.n_partly,
-                         .takes_nearest = field.load.outside == OutsideRule::nearest});
+    const RegionCoverage& region = mapping.coverage[r];
+    FieldIntegral& one = integrals.emplace_back();
+    one.field = field.quantity;
+    one.region = block.region_names[r];
+    one.n_cells = region.n_cells;
+    one.n_outside = region.n_outside;
+    one.n_partly = region.n_partly;
+    one.takes_nearest = field.load.outside == OutsideRule::nearest;
+    if (balance.empty()) continue;
+    double flow_volume = 0;
+    for (const FlowMapping::Weight& own : mapping.flow_cells[r]) flow_volume += own.value;
+    one.whole = {.flow_grid = balance[r].flow_grid,
+                 .mapped = balance[r].mapped,
+                 .largest_scaling = balance[r].largest_scaling,
+                 .flow_volume = flow_volume};
   }
   for (std::size_t c = 0; field.load.is_given() && c < block.cells.size(); ++c) {
     const InfluenceCell& cell = block.cells[c];
     FieldIntegral& one = integrals[static_cast<std::size_t>(cell.region)];
-    const double part = cell.volume * cell.fraction, covered = field.mapping.covered[c] * part;
-    const double change = field.change(static_cast<Eigen::Index>(c), field.change.cols() - 1);
+    const double part = cell.volume * cell.fraction, covered = mapping.covered[c] * part;
+    const double last = change(static_cast<Eigen::Index>(c), change.cols() - 1);
     one.volume += part;
     one.covered += covered;
-    one.acts += part * change;
-    one.has += covered * change;
-    one.size += part * std::abs(change);
-    one.assumed += (part - covered) * std::abs(change);
+    one.acts += part * last;
+    one.has += covered * last;
+    one.size += part * std::abs(last);
+    one.assumed += (part - covered) * std::abs(last);
   }
   return integrals;
 }
@@ -225,11 +225,11 @@ void report_coverage(const MappedField& field, const InfluenceBlock& block, Fiel
     loads.notes.push_back(concat(field.name, " ", note));
   const std::vector<FieldIntegral> integrals = integrals_of(field, block);
   for (std::size_t r = 0; r < integrals.size(); ++r) {
-    const RegionCoverage& region = field.mapping.coverage[r];
+    const RegionCoverage& region = field.mapped.mapping.coverage[r];
     if (region.n_cells == 0) continue;
     std::string text = concat(field.name, " on ", block.region_names[r], ": ",
                               coverage_text(region, field.load.outside));
-    if (!integrals[r].is_whole()) {
+    if (!integrals[r].is_whole() && !integrals[r].whole) {
       text += formatted(
           "; of the integral of its change at the last report %.4g %% lies in what is covered",
           100 * (1 - integrals[r].assumed_share()));
@@ -245,8 +245,8 @@ FieldLoads field_loads(const Scene& scene, const FieldCells& cells, int n_thread
   FAULTSIM_DEMAND(scene.has_field(), "loads of a field");
   const Mesh& mesh = cells.mesh;
   const InfluenceBlock& block = cells.block;
-  const MappedField pressure = map_field(scene.pressure_field, "pressure", mesh, block);
-  const MappedField temperature = map_field(scene.temperature_field, "temperature", mesh, block);
+  const MappedField pressure = map_field(scene.pressure_field, "pressure", cells);
+  const MappedField temperature = map_field(scene.temperature_field, "temperature", cells);
   const Eigen::Index n_cells = std::ssize(block.cells);
   FieldHistory history;
   history.time = all_times(pressure, temperature);
@@ -272,8 +272,9 @@ FieldLoads field_loads(const Scene& scene, const FieldCells& cells, int n_thread
     loads.notes.push_back(
         "pressures of compartments at a load step are means over their volumes; those where a "
         "fault begins to slide or jumps are of the field's cells beside the place");
-  loads.coverage = std::min(covered_share(pressure.mapping), covered_share(temperature.mapping));
-  loads.mapping = pressure.mapping;
+  loads.coverage =
+      std::min(covered_share(pressure.mapped.mapping), covered_share(temperature.mapped.mapping));
+  loads.mapping = pressure.mapped.mapping;
   loads.history = std::make_shared<const FieldHistory>(std::move(history));
   return loads;
 }

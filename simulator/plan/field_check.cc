@@ -73,7 +73,7 @@ class FieldChecker {
 
   void check(bool is_pressure) {
     try {
-      mapping_ = map_flow(*there_, bodies_, names_, OutsideRule::unchanged);
+      mapping_ = map_flow(*there_, bodies_, names_, {.outside = OutsideRule::unchanged});
     } catch (const InputError& error) {
       for (const Problem& one : error.problems()) problem(one.what, one.cure);
       return;
@@ -111,6 +111,7 @@ class FieldChecker {
       nothing_covered();
       return false;
     }
+    if (load_.integral == IntegralRule::flow_grid) say_beside();
     bool is_enough = true;
     for (int r = 0; r < n_regions(); ++r) {
       const RegionCoverage& region = part(r);
@@ -132,6 +133,16 @@ class FieldChecker {
               "compartment; if so little is meant, say \"outside\": \"nearest\" or \"unchanged\"");
     }
     return is_enough;
+  }
+
+  /// How much of the flow grid counts with compartments that it does not lie in.
+  void say_beside() {
+    double flow = 0, within = 0;
+    for (const FlowCell& cell : there_->cells) flow += flow_cell_volume(cell);
+    for (int r = 0; r < n_regions(); ++r) within += part(r).covered;
+    found_.notes.push_back(concat(
+        at_.substr(1), formatted(": %.4g %% of the volume of its cells", 100 * within / flow),
+        " lie in compartments, the others count with the nearest one (\"integral\")"));
   }
 
   void nothing_covered() {

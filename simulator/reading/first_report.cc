@@ -81,7 +81,8 @@ void take_first_report(SceneReader& reader, Scene& scene) {
   const std::shared_ptr<const FlowField> there = field_in_scene(scene.pressure_field);
   FlowMapping mapping;
   try {
-    mapping = map_flow(*there, reservoirs(scene), region_names(scene), OutsideRule::unchanged);
+    mapping = map_flow(*there, reservoirs(scene), region_names(scene),
+                       {.outside = OutsideRule::unchanged});
   } catch (const InputError& error) {
     for (const Problem& one : error.problems())
       reader.problem("/pressure_field", one.what, one.cure);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,15 @@ struct FieldIntegral {
   double size = 0;            ///< ∫ |Δp| dV or ∫ |ΔT| dV over all of it.
   double assumed = 0;         ///< of `size`, over what is not covered.
 
+  /// Where the flow cells' own integral was kept ("integral": "flow_grid").
+  struct Whole {
+    double flow_grid = 0;        ///< of the flow cells that count with it: what `acts` is.
+    double mapped = 0;           ///< what would act without scaling.
+    double largest_scaling = 0;  ///< of the changes at any report, [0, 1).
+    double flow_volume = 0;      ///< of these flow cells, m3.
+  };
+  std::optional<Whole> whole = {};
+
   bool is_whole() const;         ///< covered, but for rounding.
   double assumed_share() const;  ///< [0, 1], of `size`; 0 where nothing changes.
 };
@@ -33,7 +43,8 @@ double assumed_share(const std::vector<FieldIntegral>& integrals);
 /// Rows with the keys of schemas/result.schema.json, "field_integrals".
 nlohmann::json field_integrals_to_json(const std::vector<FieldIntegral>& integrals);
 
-/// What is assumed, a line for each compartment that is not covered whole; "" where all are.
+/// What is assumed, a line for each compartment that is not covered whole, and how the integral of
+/// the flow cells was kept; "" where all are covered and that is not asked for.
 /// @param plane_strain  integrals are per metre of strike.
 std::string field_integrals_to_text(const std::vector<FieldIntegral>& integrals,
                                     bool plane_strain = false);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "simulator/flow/outside_rule.h"
+#include "simulator/flow/mapping_rules.h"
 #include "simulator/scene/scene_key.h"
 
 /// What loads a scene: its stages, the histories of its compartments, the results of flow
@@ -19,6 +19,7 @@ struct FlowField;
 /// and no others.
 inline constexpr int kFieldMethod = 3;
 constexpr auto words(OutsideRule) { return std::array{"nearest", "unchanged"}; }
+constexpr auto words(IntegralRule) { return std::array{"mapped", "flow_grid"}; }
 
 /// One named stage of the loading; steps are equal in time unless times are given.
 struct Stage {
@@ -70,6 +71,7 @@ struct FlowLoad {
   std::shared_ptr<const FlowField> field = nullptr;  ///< none: the regions have histories.
   std::string fingerprint;                           ///< of the file's bytes.
   OutsideRule outside = OutsideRule::nearest;
+  IntegralRule integral = IntegralRule::mapped;
   std::array<double, 2> origin = {0, 0};  ///< m, of the scene in the field's coordinates.
   double azimuth = 0;                     ///< rad, of the scene's y there, from y clockwise.
   double y = 0;                           ///< m, of the section of plane strain; else 0.
@@ -87,15 +89,17 @@ struct FlowLoad {
   bool is_symmetric() const { return asymmetry && *asymmetry <= 1e-9; }
   /// Fields are told by their fingerprints.
   bool operator==(const FlowLoad& other) const {
-    return fingerprint == other.fingerprint && outside == other.outside && origin == other.origin &&
-           azimuth == other.azimuth && y == other.y && reference == other.reference &&
-           reports == other.reports && time == other.time;
+    return fingerprint == other.fingerprint && outside == other.outside &&
+           integral == other.integral && origin == other.origin && azimuth == other.azimuth &&
+           y == other.y && reference == other.reference && reports == other.reports &&
+           time == other.time;
   }
 };
 /// Which file it was does not matter, what was in it does.
 void for_each_key(Of<FlowLoad> auto& l, auto&& visit) {
   visit({"method", kByHand}, kFieldMethod);
   visit({"outside"}, l.outside);
+  visit({"integral", unless(l.integral != IntegralRule::mapped, kSilent)}, l.integral);
   visit({"origin"}, l.origin);
   visit({"azimuth"}, l.azimuth);
   visit({"y", kByHand}, l.y);

@@ -118,7 +118,8 @@ TEST(FieldFuzz, LosesNeitherVolumeNorPressure) {
     const FlowField field = random_field(draws);
     if (field.cells.empty()) continue;
     const std::vector<MappedCell> cells = random_cells(draws);
-    const FlowMapping mapping = map_flow(field, cells, {"west", "east"}, OutsideRule::unchanged);
+    const FlowMapping mapping =
+        map_flow(field, cells, {"west", "east"}, {.outside = OutsideRule::unchanged});
     FlowField from_zero = field;
     from_zero.value = Eigen::MatrixXd::Zero(field.value.rows(), 2);
     from_zero.value.col(1) = field.value.col(0);

@@ -331,7 +331,7 @@ TEST_F(EclipseResult, IsMappedByTheVolumeOfOverlap) {
     }
     cells.push_back({box, 0, 1});
   }
-  const FlowMapping mapping = map_flow(field, cells, {"all"}, OutsideRule::nearest);
+  const FlowMapping mapping = map_flow(field, cells, {"all"}, {.outside = OutsideRule::nearest});
   for (std::size_t c = 0; c < cells.size(); ++c) {
     double overlap = 0;
     for (const FlowCell& cell : field.cells) overlap += overlap_volume(cells[c].corners, cell);

@@ -72,7 +72,7 @@ double volume_west_of_fault(const FlowCell& box) {
 TEST(FlowMapping, ConservesWhatBothGridsCover) {
   const FlowField field = cube(7);
   const std::vector<MappedCell> cells = two_sides(4, 1);
-  const FlowMapping mapping = map_flow(field, cells, kNames, OutsideRule::nearest);
+  const FlowMapping mapping = map_flow(field, cells, kNames, {.outside = OutsideRule::nearest});
   const Eigen::MatrixXd change = mapped_change(mapping, field, 0);
   double mapped = 0, given = 0, size = 0;
   for (std::size_t c = 0; c < cells.size(); ++c)
@@ -110,7 +110,8 @@ TEST(FlowMapping, TakesASectionFromBothSidesOfItsY) {
   field.value = Eigen::Matrix2d{{0, 1e7}, {0, 3e7}};
   const auto at = [&](double y) {
     const std::vector<MappedCell> section{{.corners = at_section(cell, y), .region = 0}};
-    const FlowMapping mapping = map_flow(field, section, {"west"}, OutsideRule::nearest);
+    const FlowMapping mapping =
+        map_flow(field, section, {"west"}, {.outside = OutsideRule::nearest});
     return mapped_change(mapping, field, 0)(0, 1);
   };
   EXPECT_NEAR(at(0), 2e7, 1e-5);
@@ -123,7 +124,8 @@ TEST(FlowMapping, OfAUniformFieldIsUniform) {
   FlowField field = cube(5);
   field.value.col(0).setConstant(3e7);
   field.value.col(1).setConstant(1e7);
-  const FlowMapping mapping = map_flow(field, two_sides(3, 1.4), kNames, OutsideRule::nearest);
+  const FlowMapping mapping =
+      map_flow(field, two_sides(3, 1.4), kNames, {.outside = OutsideRule::nearest});
   const Eigen::VectorXd change = mapped_change(mapping, field, 0).col(1);
   EXPECT_LT((change.array() + 2e7).abs().maxCoeff(), 1e-14 * 2e7);
 }
@@ -141,7 +143,7 @@ TEST(FlowMapping, CoversTheSharesOfCellsThatLieInTheirCompartment) {
       const double top = cells[c].corners[4].z(), base = cells[c].corners[0].z();
       covered[cells[c].region] += std::clamp((-1000 - base) / (top - base), 0.0, 1.0) * part;
     }
-    const FlowMapping mapping = map_flow(field, cells, kNames, OutsideRule::nearest);
+    const FlowMapping mapping = map_flow(field, cells, kNames, {.outside = OutsideRule::nearest});
     for (std::size_t side = 0; side < 2; ++side) {
       EXPECT_NEAR(mapping.coverage[side].volume, volume[side], 1e-9 * volume[side]);
       EXPECT_NEAR(mapping.coverage[side].covered, covered[side], 1e-9 * volume[side]);
@@ -153,8 +155,8 @@ TEST(FlowMapping, SaysWhatIsNotCovered) {
   const FlowField field = cube(5);
   // Three layers of 50 m from the bottom up, of which the grid has two.
   const std::vector<MappedCell> cells = two_sides(3, 1.5);
-  const FlowMapping near = map_flow(field, cells, kNames, OutsideRule::nearest);
-  const FlowMapping held = map_flow(field, cells, kNames, OutsideRule::unchanged);
+  const FlowMapping near = map_flow(field, cells, kNames, {.outside = OutsideRule::nearest});
+  const FlowMapping held = map_flow(field, cells, kNames, {.outside = OutsideRule::unchanged});
   for (const RegionCoverage& region : near.coverage) {
     EXPECT_EQ(region.n_outside, 9);
     EXPECT_EQ(region.n_partly, 0);
@@ -174,14 +176,15 @@ TEST(FlowMapping, RefusesCellsOverEachOther) {
   FlowField field = cube(2);
   field.cells.push_back({{10, 10, -1090}, {20, 20, -1080}});
   field.value.conservativeResize(9, 2);
-  EXPECT_THAT(([&] { map_flow(field, two_sides(2, 1), kNames, OutsideRule::nearest); }),
-              ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
+  EXPECT_THAT(
+      ([&] { map_flow(field, two_sides(2, 1), kNames, {.outside = OutsideRule::nearest}); }),
+      ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
 }
 
 TEST(FlowMapping, SaysTheSharesThatAreCovered) {
   const FlowField field = cube(5);
   const std::vector<MappedCell> cells = two_sides(1, 1.6);
-  const FlowMapping mapping = map_flow(field, cells, kNames, OutsideRule::nearest);
+  const FlowMapping mapping = map_flow(field, cells, kNames, {.outside = OutsideRule::nearest});
   EXPECT_NEAR(mapping.covered[0], mapping.coverage[0].covered / cell_volume(cells[0].corners),
               1e-12);
   EXPECT_NEAR(mapping.covered[0] * cell_volume(cells[0].corners), 100 * 100 * 50.0, 1e-6);

@@ -160,7 +160,8 @@ TEST(FlowHexahedra, PinchedOnOneSideAreWedges) {
 TEST(FlowHexahedra, AreMappedAndRefusedWhereTheyLieOverEachOther) {
   FlowField field{.cells = layers(4, 6, 17, domed), .date = {0}, .value = {}};
   field.value = Eigen::MatrixXd::Constant(std::ssize(field.cells), 1, 2e7);
-  const FlowMapping mapping = map_flow(field, inner_cells(3, 0.1), {"west"}, OutsideRule::nearest);
+  const FlowMapping mapping =
+      map_flow(field, inner_cells(3, 0.1), {"west"}, {.outside = OutsideRule::nearest});
   EXPECT_NEAR(mapping.coverage[0].covered, mapping.coverage[0].volume, 1e-3);
   EXPECT_EQ(mapping.coverage[0].n_partly, 0);
   for (const auto& weights : mapping.weights) {
@@ -170,8 +171,9 @@ TEST(FlowHexahedra, AreMappedAndRefusedWhereTheyLieOverEachOther) {
   }
   for (Eigen::Vector3d& corner : *field.cells[40].corners) corner.z() += 20;
   field.cells[40] = flow_cell_around(*field.cells[40].corners);
-  EXPECT_THAT(([&] { map_flow(field, inner_cells(3, 0.1), {"west"}, OutsideRule::nearest); }),
-              ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
+  EXPECT_THAT(
+      ([&] { map_flow(field, inner_cells(3, 0.1), {"west"}, {.outside = OutsideRule::nearest}); }),
+      ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
 }
 
 TEST(FlowCellSearch, FindsWhatLookingAtAllFinds) {

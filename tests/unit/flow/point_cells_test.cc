@@ -212,7 +212,8 @@ TEST(PointTables, OfATurnedGridGiveWhatItsCellsGive) {
   const MappedCell body{.corners = between_sides({-333, -300}, {210, 250}, 1995, 2033, 444),
                         .region = 0};
   const auto mean = [&](const FlowField& field) {
-    const FlowMapping mapping = map_flow(field, {body}, {"body"}, OutsideRule::unchanged);
+    const FlowMapping mapping =
+        map_flow(field, {body}, {"body"}, {.outside = OutsideRule::unchanged});
     EXPECT_NEAR(mapping.covered[0], 1, 1e-6);
     double sum = 0;
     for (const auto& weight : mapping.weights[0])

@@ -451,7 +451,7 @@ TEST_F(FieldLoadsTest, AreShownInCellsAsTheyAct) {
     field.value(static_cast<Eigen::Index>(c), 1) -= 4e6 + 100 * field.cells[c].low.x();
   const Scene scene = with(field);
   const FieldLoads loads = field_loads(scene, cells());
-  const CellChanges shown(scene, mesh_);
+  const CellChanges shown(scene, mesh_, false);
   ASSERT_TRUE(shown.has_pressure());
   EXPECT_FALSE(shown.has_temperature());
   EXPECT_EQ(shown.pressure(0).norm(), 0);
@@ -470,6 +470,55 @@ TEST_F(FieldLoadsTest, AreShownInCellsAsTheyAct) {
     }
     EXPECT_NEAR(sum / volume, 0.5 * loads.history->region_change(r, 1), 1e-3) << r;
   }
+}
+
+/// Flow cells of 250 m and 40 m follow no fault and no top: each counts whole, with one
+/// compartment.
+TEST_F(FieldLoadsTest, KeepTheIntegralOfTheFlowGrid) {
+  FlowField field = boxes(3);
+  double whole = 0, size = 0;  // per metre of strike
+  std::erase_if(field.cells, [&](const FlowCell& cell) {
+    double within = 0;
+    for (const std::size_t block : {0, 1})
+      within += overlap_volume(at_section(block_corners(scene_, block), 0), cell);
+    return within < 0.8 * 250 * 40;
+  });
+  field.value = Eigen::MatrixXd::Constant(std::ssize(field.cells), 3, 3e7);
+  for (std::size_t c = 0; c < field.cells.size(); ++c) {
+    const auto row = static_cast<Eigen::Index>(c);
+    field.value(row, 1) -= 1e6 * std::sin(0.01 * field.cells[c].low.x());
+    field.value(row, 2) -= 4e6 + 500 * field.cells[c].low.x();
+    whole += 250 * 40 * (field.value(row, 2) - field.value(row, 0));
+    size += 250 * 40 * std::abs(field.value(row, 2) - field.value(row, 0));
+  }
+  Scene scene = with(field);
+  const std::string key = field_loads_key(scene);
+  scene.pressure_field.integral = IntegralRule::flow_grid;
+  EXPECT_NE(field_loads_key(scene), key);
+  const FieldLoads loads = field_loads(scene, cells());
+  double acts = 0, volume = 0, scaled = 0;
+  for (const FieldIntegral& one : loads.integrals) {
+    ASSERT_TRUE(one.whole);
+    EXPECT_NEAR(one.acts, one.whole->flow_grid, 1e-12 * size);
+    scaled += std::abs(one.whole->mapped - one.acts);
+    acts += one.acts;
+    volume += one.whole->flow_volume;
+  }
+  EXPECT_NEAR(acts, whole, 1e-12 * size);
+  EXPECT_GT(scaled, 1e-3 * size);
+  EXPECT_NEAR(volume, 250 * 40 * static_cast<double>(field.cells.size()), 1e-6 * volume);
+  // What pictures show is what acts.
+  const Eigen::VectorXd shown = CellChanges(scene, mesh_, false).pressure(2 * kYear);
+  double in_pictures = 0;
+  for (const InfluenceCell& cell : prepared_.block->cells)
+    in_pictures += cell.fraction * cell.volume * shown[cell.cell];
+  EXPECT_NEAR(in_pictures, whole, 1e-12 * size);
+  EXPECT_THAT(field_integrals_to_text(loads.integrals),
+              testing::HasSubstr("bar m3, is that of its flow cells ("));
+  EXPECT_THAT(field_integrals_to_text(loads.integrals, true), testing::HasSubstr(" bar m3/m, is "));
+  const json row = field_integrals_to_json(loads.integrals)[0];
+  EXPECT_EQ(row["integral_of_flow_grid"], loads.integrals[0].whole->flow_grid);
+  EXPECT_EQ(row["largest_scaling"], loads.integrals[0].whole->largest_scaling);
 }
 
 TEST_F(FieldLoadsTest, HaveAKeyOfWhatTheyLookAt) {

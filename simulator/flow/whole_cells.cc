@@ -1,0 +1,144 @@
+#include "simulator/flow/whole_cells.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulator/common/errors.h"
+#include "simulator/common/text.h"
+#include "simulator/flow/flow_cell_search.h"
+
+namespace faultsim {
+namespace {
+
+/// Integrals over a compartment at one report.
+struct Sums {
+  double flow_grid = 0, mapped = 0, size = 0;
+
+  /// κ.
+  double scaling() const {
+    constexpr double kMost = 0.5;
+    return size > 0 ? std::clamp((flow_grid - mapped) / size, -kMost, kMost) : 0;
+  }
+  /// What scaling leaves: changes where our cells have next to none.
+  double left() const {
+    const double rest = flow_grid - mapped - scaling() * size;
+    return std::abs(rest) > kRounding * (std::abs(flow_grid) + size) ? rest : 0;
+  }
+
+ private:
+  static constexpr double kRounding = 1e-14;
+};
+
+std::vector<Sums> sums_at(const FlowMapping& mapping, const FlowField& field, int reference,
+                          int report, const Eigen::VectorXd& change) {
+  std::vector<Sums> sums(mapping.flow_cells.size());
+  for (std::size_t r = 0; r < sums.size(); ++r) {
+    for (const FlowMapping::Weight& own : mapping.flow_cells[r])
+      sums[r].flow_grid +=
+          own.value * (field.value(own.flow_cell, report) - field.value(own.flow_cell, reference));
+  }
+  for (std::size_t c = 0; c < mapping.part.size(); ++c) {
+    Sums& region = sums[static_cast<std::size_t>(mapping.region[c])];
+    const double integral = mapping.part[c] * change[static_cast<Eigen::Index>(c)];
+    region.mapped += integral;
+    region.size += std::abs(integral);
+  }
+  return sums;
+}
+
+/// @throws InputError for all compartments whose integrals are not those of one field.
+std::vector<IntegralBalance> balances(const std::vector<std::vector<Sums>>& of_report,
+                                      const std::vector<std::string>& region_names) {
+  std::vector<IntegralBalance> balance;
+  std::vector<Problem> problems;
+  for (std::size_t r = 0; !of_report.empty() && r < of_report.back().size(); ++r) {
+    double size = 0, off = 0;
+    for (const std::vector<Sums>& regions : of_report) {
+      size = std::max(size, regions[r].size);
+      off = std::max(off, std::abs(regions[r].flow_grid - regions[r].mapped));
+    }
+    const Sums& last = of_report.back()[r];
+    balance.push_back({.flow_grid = last.flow_grid,
+                       .mapped = last.mapped,
+                       .largest_scaling = size > 0 ? off / size : 0});
+    if (off <= 0.5 * size || off == 0) continue;
+    problems.push_back(
+        {"", 0,
+         formatted("the integral of its change over the flow cells that count with %s is up to "
+                   "%.3g times that over the compartment",
+                   region_names[r].c_str(), 1 + off / size),
+         "check the place of the compartment; flow cells far from it count with it too by "
+         "\"integral\": \"flow_grid\": leave that out where the model is a part of the field"});
+  }
+  if (!problems.empty()) throw InputError("flow field", problems);
+  return balance;
+}
+
+CellCorners corners_of_box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+  CellCorners corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    corners[i] = {i % 4 == 1 || i % 4 == 2 ? high.x() : low.x(), i % 4 >= 2 ? high.y() : low.y(),
+                  i >= 4 ? high.z() : low.z()};
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<int> compartments_of_flow_cells(
+    const FlowField& field, const std::vector<MappedCell>& cells,
+    const std::vector<std::vector<FlowMapping::Weight>>& overlaps, std::size_t n_regions) {
+  Eigen::MatrixXd held =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n_regions), std::ssize(field.cells));
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (const FlowMapping::Weight& overlap : overlaps[c])
+      held(cells[c].region, overlap.flow_cell) += cells[c].fraction * overlap.value;
+  }
+  std::vector<FlowCell> ours;
+  for (const MappedCell& cell : cells) ours.push_back(flow_cell_around(cell.corners));
+  const FlowCellSearch search(ours);
+  std::vector<int> compartments;
+  for (Eigen::Index f = 0; f < held.cols(); ++f) {
+    int most = 0;
+    if (held.col(f).maxCoeff(&most) <= 0) {
+      const FlowCell& cell = field.cells[static_cast<std::size_t>(f)];
+      most = cells[static_cast<std::size_t>(search.nearest((cell.low + cell.high) / 2))].region;
+    }
+    compartments.push_back(most);
+  }
+  return compartments;
+}
+
+double volume_between(const FlowCell& cell, const std::array<double, 2>& y_range) {
+  FlowCell part{.low = cell.low, .high = cell.high};
+  if (part.low.y() >= y_range[0] && part.high.y() <= y_range[1]) return flow_cell_volume(cell);
+  part.low.y() = std::max(part.low.y(), y_range[0]);
+  part.high.y() = std::min(part.high.y(), y_range[1]);
+  if (part.low.y() >= part.high.y()) return 0;
+  return overlap_volume(corners_of_box(part.low, part.high), cell);
+}
+
+std::vector<IntegralBalance> keep_integrals(const FlowMapping& mapping, const FlowField& field,
+                                            int reference, const std::vector<int>& reports,
+                                            const std::vector<std::string>& region_names,
+                                            Eigen::MatrixXd& change) {
+  std::vector<std::vector<Sums>> of_report;
+  for (std::size_t t = 0; t < reports.size(); ++t)
+    of_report.push_back(
+        sums_at(mapping, field, reference, reports[t], change.col(static_cast<Eigen::Index>(t))));
+  const std::vector<IntegralBalance> balance = balances(of_report, region_names);
+  std::vector<double> volume(mapping.flow_cells.size());
+  for (std::size_t c = 0; c < mapping.part.size(); ++c)
+    volume[static_cast<std::size_t>(mapping.region[c])] += mapping.part[c];
+  for (std::size_t t = 0; t < reports.size(); ++t) {
+    for (std::size_t c = 0; c < mapping.part.size(); ++c) {
+      const auto region = static_cast<std::size_t>(mapping.region[c]);
+      const Sums& sums = of_report[t][region];
+      double& value = change(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(t));
+      value += sums.scaling() * std::abs(value) + sums.left() / volume[region];
+    }
+  }
+  return balance;
+}
+
+}  // namespace faultsim
