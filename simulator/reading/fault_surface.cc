@@ -249,52 +249,69 @@ StickColumns stick_columns(TableReader& table) {
   return found;
 }
 
-DrawnSurface sticks_of(const std::string& text, const std::string& given) {
-  TableReader table(text, given);
-  if (!table.has_header(kStickCure)) table.require_sound();
-  const StickColumns columns = stick_columns(table);
-  table.require_sound();
-  DrawnSurface surface;
-  std::vector<std::string> names;
-  while (table.next_row()) {
-    const std::string name(table.cell(*columns.at[0]));
-    const auto x = table.value(*columns.at[1]), y = table.value(*columns.at[2]),
-               z = table.value(*columns.at[3]);
-    const bool is_new = names.empty() || names.back() != name;
-    if (is_new && contains(names, name))
-      table.refuse("rows of the stick " + table_quote(name) + " stand apart",
-                   "write the rows of a stick one after the other");
-    if (is_new) {
-      names.push_back(name);
-      surface.sticks.emplace_back();
-    }
-    if (!x || !y || !z) continue;
-    const double up = columns.is_depth ? -*z : *z;
-    std::vector<int>& stick = surface.sticks.back();
-    if (stick.size() > 1) {
-      const double before = surface.points[stick.back()].z();
-      const double way = before - surface.points[stick[stick.size() - 2]].z();
-      if ((up - before) * way <= 0)
-        table.refuse("the stick " + table_quote(name) + " turns back in depth",
-                     "let each stick go down, or up, all the way");
-    } else if (stick.size() == 1 && surface.points[stick[0]].z() == up) {
-      table.refuse("the stick " + table_quote(name) + " has two points at one depth",
-                   "let each stick go down, or up, all the way");
-    }
-    stick.push_back(static_cast<int>(surface.points.size()));
-    surface.points.emplace_back(*x, *y, up);
+class StickReader {
+ public:
+  StickReader(const std::string& text, const std::string& given) : table_(text, given) {}
+
+  DrawnSurface read() {
+    if (!table_.has_header(kStickCure)) table_.require_sound();
+    const StickColumns columns = stick_columns(table_);
+    table_.require_sound();
+    while (table_.next_row()) read_row(columns);
+    table_.require_rows("write a line for each point of each stick");
+    for (std::size_t s = 0; s < names_.size(); ++s)
+      if (made_.sticks[s].size() < 2)
+        table_.refuse_at(0, "the stick " + table_quote(names_[s]) + " has one point",
+                         "give two or more of each");
+    if (names_.size() < 2) table_.refuse_at(0, "has one stick", "give two or more, in order");
+    table_.require_sound();
+    for (std::vector<int>& stick : made_.sticks)
+      if (made_.points[stick.front()].z() < made_.points[stick.back()].z())
+        std::ranges::reverse(stick);
+    return std::move(made_);
   }
-  table.require_rows("write a line for each point of each stick");
-  for (std::size_t s = 0; s < names.size(); ++s)
-    if (surface.sticks[s].size() < 2)
-      table.refuse_at(0, "the stick " + table_quote(names[s]) + " has one point",
-                      "give two or more of each");
-  if (names.size() < 2) table.refuse_at(0, "has one stick", "give two or more, in order");
-  table.require_sound();
-  for (std::vector<int>& stick : surface.sticks)
-    if (surface.points[stick.front()].z() < surface.points[stick.back()].z())
-      std::ranges::reverse(stick);
-  return surface;
+
+ private:
+  void read_row(const StickColumns& columns);
+  void begin(const std::string& name);
+  void check_depth(double z);
+
+  TableReader table_;
+  DrawnSurface made_;
+  std::vector<std::string> names_;
+};
+
+void StickReader::begin(const std::string& name) {
+  if (contains(names_, name))
+    table_.refuse("rows of the stick " + table_quote(name) + " stand apart",
+                  "write the rows of a stick one after the other");
+  names_.push_back(name);
+  made_.sticks.emplace_back();
+}
+
+/// Of the next point of the last stick.
+void StickReader::check_depth(double z) {
+  const std::vector<int>& stick = made_.sticks.back();
+  if (stick.empty()) return;
+  const double before = made_.points[stick.back()].z();
+  const double way = stick.size() > 1 ? before - made_.points[stick[stick.size() - 2]].z() : 0;
+  const bool goes_on = stick.size() > 1 ? (z - before) * way > 0 : z != before;
+  if (goes_on) return;
+  table_.refuse("the stick " + table_quote(names_.back()) +
+                    (z == before ? " has two points at one depth" : " turns back in depth"),
+                "let each stick go down, or up, all the way");
+}
+
+void StickReader::read_row(const StickColumns& columns) {
+  const std::string name(table_.cell(*columns.at[0]));
+  const auto x = table_.value(*columns.at[1]), y = table_.value(*columns.at[2]),
+             z = table_.value(*columns.at[3]);
+  if (names_.empty() || names_.back() != name) begin(name);
+  if (!x || !y || !z) return;
+  const double up = columns.is_depth ? -*z : *z;
+  check_depth(up);
+  made_.sticks.back().push_back(static_cast<int>(made_.points.size()));
+  made_.points.emplace_back(*x, *y, up);
 }
 
 }  // namespace
@@ -303,7 +320,7 @@ DrawnSurface parse_fault_surface(const std::string& text, const std::string& giv
                                  const std::string& fault) {
   if (std::string_view(text).starts_with("GOCAD"))
     return GocadReader(text, given).surface_of(fault);
-  return sticks_of(text, given);
+  return StickReader(text, given).read();
 }
 
 }  // namespace faultsim

@@ -169,8 +169,9 @@ void BodyReader::read_fault(const std::string& at) {
   fault.name = reader_.text(at + "/name");
   fault.trace = line(at + "/trace");
   if (!reader_.has(at + "/trace") && !reader_.has(at + "/surface")) {
-    reader_.problem(at, "the fault \"" + fault.name + "\" has no trace",
-                    R"(add "trace": [["0 m", "-1 km"], ["0 m", "1 km"]], its line in the map)");
+    reader_.problem(
+        at, "the fault \"" + fault.name + "\" has no trace",
+        R"(add "trace": [["0 m", "-1 km"], ["0 m", "1 km"]], its line in the map, or a "surface")");
   }
   fault.first_end = end("/first_end");
   fault.last_end = end("/last_end");

@@ -138,8 +138,8 @@ TEST(FaultDips, AreMoreEvenUntilTheBodyCanBeBuilt) {
     pillar.bottom.x() += 500 * lean;
   }
   const MadeScene all = scene_of(grid);
-  for (const auto& r : all.made.remarks) std::cout << r.text << '\n';
   EXPECT_EQ(first_misfit(all.made.lines), std::nullopt);
+  EXPECT_TRUE(says(all.made.remarks, "(means over 320 m)")) << "4 cells of 80 m";
 }
 
 /// Pillars that turn back and forth, at 600 m.

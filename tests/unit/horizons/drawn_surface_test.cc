@@ -120,10 +120,11 @@ TEST(DrawnSurface, OfACurvedOneIsThereWhereTheNormalMeetsIt) {
 }
 
 TEST(DrawnSurface, AVerticalOneRunsToTheNorth) {
-  const DrawnSurface wall = triangulated(
-      -2900, -1300, [](double u, double) { return Vector2d(300 * u, 1000 - 900 * u); });
-  const SurfaceLines lines = drawn(wall);
-  EXPECT_LT(lines.trace.front().y(), lines.trace.back().y());
+  for (const double way : {-1., 1.}) {
+    const SurfaceLines lines = drawn(triangulated(
+        -2900, -1300, [&](double u, double) { return Vector2d(300 * u, way * (900 * u - 450)); }));
+    EXPECT_LT(lines.trace.front().y(), lines.trace.back().y()) << way;
+  }
 }
 
 TEST(DrawnSurface, ATraceOfOnesOwnTakesHowItGoesDown) {
@@ -163,6 +164,16 @@ TEST(DrawnSurface, WhatIsNoFaultIsRefusedWithItsPlace) {
   std::erase_if(two.triangles,
                 [&](const std::array<int, 3>& t) { return std::abs(two.points[t[0]].y()) < 100; });
   EXPECT_THAT(refused(two), HasSubstr("is cut in 2 lines at the depth of traces, 2000 m"));
+  // A branch to the east from the middle.
+  DrawnSurface branched = triangulated(-2900, -1300, on_plane);
+  const auto n_first = static_cast<int>(branched.points.size());
+  for (int j = 0; j < 10; ++j)
+    branched.points.push_back(branched.points[13 * j + 6] + Vector3d(500, 0, 0));
+  for (int j = 0; j < 9; ++j) {
+    branched.triangles.push_back({13 * j + 6, n_first + j, 13 * j + 19});
+    branched.triangles.push_back({13 * j + 19, n_first + j, n_first + j + 1});
+  }
+  EXPECT_THAT(refused(branched), HasSubstr("is cut in 3 lines at the depth of traces"));
   const auto around = [](double u, double) {
     return Vector2d(800 * std::cos(2 * std::numbers::pi * u),
                     800 * std::sin(2 * std::numbers::pi * u));

@@ -317,6 +317,15 @@ TEST_F(HorizonsScene, ATableIsAHorizon) {
                                      "[m], y [m], depth [m]"));
 }
 
+/// Growth is a factor from one cell to the next: 1 keeps their size.
+TEST_F(HorizonsScene, CellsGrowByAFactor) {
+  const auto n_cells = [&](const Changes& changes) {
+    return static_cast<double>(read(changes).box.mesh->content->cell_group.size());
+  };
+  const double alike = n_cells({{"/mesh/largest", "200 m"}});
+  EXPECT_NEAR(n_cells({{"/mesh/growth", "1.001"}}), alike, 0.05 * alike);
+}
+
 TEST_F(HorizonsScene, EveryProblemOfKeysIsSaidAtOnce) {
   EXPECT_EQ(said({{"/geometry/layers/1/material", "granite"},
                   {"/geometry/layers/0/top", R"({"depth": "0 m"})"},
