@@ -103,6 +103,7 @@ void take_dips(const ColumnMap& map, const std::vector<int>& pillars, Fault& fau
     dips.push_back(std::atan2(1, lean.norm()));
     angles.push_back(pillar_angle(pillar));
     directions.push_back(std::atan2(lean.x(), lean.y()));
+    fault.lean.push_back(-cross_product(tangent, lean));
     to_left += cross_product(tangent, lean);
     sum += lean;
   }

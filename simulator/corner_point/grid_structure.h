@@ -100,6 +100,8 @@ struct Fault {
                                 ///< the edges beside it.
   double largest_offset = 0;    ///< m ≥ 0, over edges and layers.
   Side down = Side::neither;    ///< the lower side; both: it changes along the fault.
+  std::vector<double> lean;     ///< per pillar: m to the right of the trace for each m downwards,
+                                ///< across it.
   Spread dip;                   ///< rad from the horizontal, (0, π/2], per pillar: of
                                 ///< the plane of pillar and trace.
   Spread pillar_angle;          ///< rad, of the pillars from the vertical.

@@ -6,6 +6,7 @@
 
 #include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
+#include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/flow/cell_overlap.h"
 #include "simulator/grid_scene/mesh_size.h"
@@ -29,6 +30,15 @@ Json places(const Polyline& line) {
   Json all = Json::array();
   for (const Vector2d& at : line) all.push_back(place(at));
   return all;
+}
+
+/// From the vertical: one, or one per point of the trace.
+Json dips_json(const ModelFault& fault) {
+  const auto dip = [](double lean) {
+    return formatted("%.4g deg", std::atan(lean) * 180 / std::numbers::pi);
+  };
+  if (fault.leans.size() == 1) return dip(fault.leans[0]);
+  return mapped(fault.leans, dip);
 }
 
 /// The day, and the time of day where it has one.
@@ -253,16 +263,14 @@ void SceneMaker::add_faults() {
     };
     say_end("first_end", fault.first_end);
     say_end("last_end", fault.last_end);
-    one["dip_from_vertical"] =
-        formatted("%.4g deg", std::atan(fault.lean) * 180 / std::numbers::pi);
+    one["dip_from_vertical"] = dips_json(fault);
     one["top"] = depth(fault.top);
     one["bottom"] = depth(fault.bottom);
     faults.push_back(one);
   }
   made_.scene["faults"] = faults;
   say(RemarkKind::choice,
-      formatted("each fault has one dip, the median of its pillars', and reaches %.0f m above "
-                "and below the reservoir beside it",
+      formatted("each fault reaches %.0f m above and below the reservoir beside it",
                 options_.lines.overshoot),
       "--overshoot, /faults");
 }

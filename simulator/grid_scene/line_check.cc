@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulator/common/ranges.h"
 #include "simulator/grid_scene/trace_ends.h"
 #include "simulator/horizons/body_check.h"
 #include "simulator/horizons/map_mesh.h"
-#include "simulator/horizons/pillars.h"
+#include "simulator/horizons/pillar_check.h"
 #include "simulator/horizons/traces.h"
 
 namespace faultsim::grid_scene {
@@ -79,17 +80,14 @@ horizons::LayeredBody body_of_lines(const ModelLines& lines) {
   body.layers = {{0}};
   body.cells.at_faults = lines.strike;
   for (const ModelFault& fault : lines.faults) {
-    body.faults.push_back(
-        {.name = fault.name,
-         .trace = fault.trace,
-         .first_end = end_of_trace(fault.first_end),
-         .last_end = end_of_trace(fault.last_end),
-         .dips_to = fault.lean >= 0 ? horizons::DipSide::right : horizons::DipSide::left,
-         .dip = std::atan2(1, std::abs(fault.lean)),
-         .listric = {},
-         .top = fault.top,
-         .bottom = fault.bottom,
-         .moved = {}});
+    body.faults.push_back({.name = fault.name,
+                           .trace = fault.trace,
+                           .first_end = end_of_trace(fault.first_end),
+                           .last_end = end_of_trace(fault.last_end),
+                           .profiles = mapped(fault.leans, horizons::straight_profile),
+                           .top = fault.top,
+                           .bottom = fault.bottom,
+                           .moved = {}});
   }
   for (const ModelDivider& divider : lines.dividers)
     body.dividers.push_back({divider.name, divider.line});
@@ -103,7 +101,9 @@ std::optional<Misfit> first_misfit(const ModelLines& lines) {
   Misfit last;  // the last of the faults: the shortest
   for (const Problem& problem : problems) {
     const int fault = fault_in(problem.pointer);
-    if (last.what.empty() || fault > last.fault) last = {fault, problem.what};
+    const bool is_of_line = problem.pointer.find("/trace") != std::string::npos;
+    if (last.what.empty() || fault > last.fault)
+      last = {fault, problem.what, fault >= 0 && !is_of_line};
   }
   if (last.fault < 0) last.fault = fault_to_blame(lines);
   return last;

@@ -18,6 +18,7 @@ horizons::LayeredBody body_of_lines(const ModelLines& lines);
 struct Misfit {
   int fault = -1;  ///< the one to leave out; −1: none of them alone.
   std::string what;
+  bool is_in_depth = false;  ///< by how it dips; else by its line.
 };
 
 /// What the builder says of the lines, of cells between them and of faults in depth, before it

@@ -1,6 +1,7 @@
 #include "simulator/grid_scene/model_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -10,8 +11,8 @@
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/corner_point/column_map.h"
-#include "simulator/corner_point/fault_description.h"
 #include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/fault_dips.h"
 #include "simulator/grid_scene/line_check.h"
 #include "simulator/grid_scene/mesh_size.h"
 #include "simulator/grid_scene/outline.h"
@@ -33,12 +34,8 @@ using Eigen::Vector2d;
 
 std::string metres(double value) { return formatted("%.0f m", value); }
 
-/// tan of dip_from_vertical, > 0 to the right.
-double lean_of(const Fault& fault) {
-  if (fault.dips_towards == corner_point::Side::neither) return 0;
-  const double size = 1 / std::tan(fault.dip.median);
-  return fault.dips_towards == corner_point::Side::right ? size : -size;
-}
+/// How far dips of a fault reach along it: over so many cells of the grid; 0: it has one.
+constexpr std::array<double, 4> kDipReaches = {2, 4, 8, 0};
 
 class LineMaker {
  public:
@@ -49,7 +46,11 @@ class LineMaker {
         options_(options),
         remarks_(remarks),
         map_(grid),
-        cell_(median_cell(map_)) {}
+        cell_(median_cell(map_)),
+        reach_(structure.faults.size(), 0) {
+    for (const Fault& fault : structure.faults)
+      pillars_.push_back(fault_pillars(grid, fault, structure.reference_z));
+  }
 
   ModelLines make() {
     lines_.reference_z = structure_.reference_z;
@@ -71,6 +72,7 @@ class LineMaker {
     }
     if (!trouble.empty())
       remarks_.push_back({RemarkKind::warning, "lines do not fit together yet: " + trouble, ""});
+    say_dips();
     say_left_out();
     return std::move(lines_);
   }
@@ -78,6 +80,11 @@ class LineMaker {
  private:
   void take_box();
   std::string fit();
+  bool smooth_dips(int source);
+  double dip_reach(int source) const {
+    return kDipReaches[reach_[source]] * structure_.faults[source].cell;
+  }
+  void say_dips();
   void draw_faults();
   ModelFault drawn(int source) const;
   void draw_depths(const Fault& fault, ModelFault& drawn) const;
@@ -102,6 +109,8 @@ class LineMaker {
   ColumnMap map_;
   double cell_;
   ModelLines lines_;
+  std::vector<std::vector<FaultPillar>> pillars_;  ///< per fault of the structure.
+  std::vector<std::size_t> reach_;                 ///< per fault of the structure: of kDipReaches.
   std::vector<std::pair<int, std::string>> left_out_;  ///< faults of the structure, and why.
 };
 
@@ -137,15 +146,31 @@ void LineMaker::take_box() {
 /// Draws all lines; what does not fit with others is left out, one fault after the other.
 /// @returns "" or what is still wrong.
 std::string LineMaker::fit() {
-  for (std::size_t round = 0; round <= structure_.faults.size(); ++round) {
+  const std::size_t n_rounds = structure_.faults.size() * (kDipReaches.size() + 1);
+  for (std::size_t round = 0; round <= n_rounds; ++round) {
     draw_faults();
     draw_dividers();
     const std::optional<Misfit> misfit = first_misfit(lines_);
     if (!misfit) return "";
     if (misfit->fault < 0) return misfit->what;
+    if (misfit->is_in_depth && smooth_dips(lines_.faults[misfit->fault].source)) continue;
     leave_out(lines_.faults[misfit->fault].source, misfit->what);
   }
   return "faults do not fit together";
+}
+
+/// Lets a fault that does not fit in depth dip more evenly, and all faults have one dip before it
+/// is left out. @returns false where they have.
+bool LineMaker::smooth_dips(int source) {
+  constexpr std::size_t kLast = kDipReaches.size() - 1;
+  if (reach_[source] < kLast) {
+    ++reach_[source];
+    return true;
+  }
+  const bool can = std::ranges::any_of(
+      lines_.faults, [&](const ModelFault& fault) { return reach_[fault.source] < kLast; });
+  std::ranges::fill(reach_, kLast);
+  return can;
 }
 
 void LineMaker::draw_faults() {
@@ -160,12 +185,13 @@ void LineMaker::draw_faults() {
   }
   open_v_ends();
   for (std::size_t f = 0; f < lines_.faults.size(); ++f) draw_ends(f);
+  for (ModelFault& fault : lines_.faults)
+    take_dips(pillars_[fault.source], dip_reach(fault.source), lines_.reference_z, fault);
 }
 
 ModelFault LineMaker::drawn(int source) const {
   const Fault& fault = structure_.faults[source];
   ModelFault drawn{.name = concat("F", source + 1), .source = source, .trace = fault.trace};
-  drawn.lean = lean_of(fault);
   draw_depths(fault, drawn);
   return drawn;
 }
@@ -354,6 +380,15 @@ void LineMaker::draw_extension(const ModelFault& fault, bool is_last) {
   if (best) lines_.dividers.push_back({"on_from_" + fault.name, *best});
 }
 
+void LineMaker::say_dips() {
+  for (const ModelFault& fault : lines_.faults) {
+    remarks_.push_back(
+        {RemarkKind::choice,
+         dips_text(pillars_[fault.source], fault, dip_reach(fault.source), lines_.reference_z),
+         "/faults, \"dip_from_vertical\""});
+  }
+}
+
 void LineMaker::say_left_out() {
   for (const auto& [source, why] : left_out_) {
     remarks_.push_back({RemarkKind::left_out,
@@ -365,7 +400,7 @@ void LineMaker::say_left_out() {
 }  // namespace
 
 Polyline ModelFault::at(double z, double reference_z) const {
-  const double to_right = lean * (reference_z - std::clamp(z, bottom, top));
+  const double down = reference_z - std::clamp(z, bottom, top);
   std::vector<Vector2d> across;  // of pieces, to the right
   for (std::size_t k = 0; k + 1 < trace.size(); ++k) {
     const Vector2d along = (trace[k + 1] - trace[k]).normalized();
@@ -376,7 +411,7 @@ Polyline ModelFault::at(double z, double reference_z) const {
     const Vector2d &before = across[k == 0 ? 0 : k - 1],
                    &after = across[std::min(k, across.size() - 1)];
     const Vector2d mean = (before + after).normalized();
-    line.emplace_back(trace[k] + to_right / mean.dot(after) * mean);
+    line.emplace_back(trace[k] + lean_at(k) * down / mean.dot(after) * mean);
   }
   return line;
 }

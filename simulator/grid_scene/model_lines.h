@@ -15,17 +15,19 @@ using Polyline = std::vector<Eigen::Vector2d>;
 /// How an end of a trace is called in a scene.
 enum class LineEnd { rock, fault };
 
-/// A fault of the model: straight pieces of a trace and one dip.
+/// A fault of the model: straight pieces of a trace, and how it dips.
 struct ModelFault {
   std::string name;
   int source = -1;  ///< into GridStructure::faults.
   Polyline trace;   ///< at ModelLines::reference_z, first to last.
   LineEnd first_end = LineEnd::rock, last_end = LineEnd::rock;
-  double lean = 0;             ///< m to the right of the trace for each m downwards: tan of
-                               ///< dip_from_vertical.
+  /// m to the right of the trace for each m downwards, tan of dip_from_vertical: one for all of it,
+  /// or one per point of the trace, linear between.
+  std::vector<double> leans = {0};
   double top = 0, bottom = 0;  ///< z where it ends.
 
-  /// Its line at a height, each piece moved across itself, m.
+  double lean_at(std::size_t point) const { return leans[leans.size() == 1 ? 0 : point]; }
+  /// Its line at a height, each point moved across it, m.
   Polyline at(double z, double reference_z) const;
 };
 

@@ -39,31 +39,48 @@ void check_box(const LayeredBody& body, NumberCheck& check) {
                "give 0 < at_faults <= far, and a growth above 0");
 }
 
-void check_dip(const LayeredFault& fault, const std::string& pointer, NumberCheck& check) {
+/// rad from the horizontal, of the flattest piece of a sorted profile.
+double least_dip(const DipProfile& profile) {
+  double least = std::numbers::pi / 2;
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k)
+    least = std::min(least, std::atan2(profile[k + 1].z - profile[k].z,
+                                       std::abs(profile[k + 1].shift - profile[k].shift)));
+  return least;
+}
+
+void check_profile(DipProfile profile, const std::string& name, const std::string& pointer,
+                   NumberCheck& check) {
+  constexpr double kLeast = 5 * std::numbers::pi / 180, kSlack = 1e-9;
+  std::ranges::sort(profile, {}, &DipPoint::z);
+  bool is_line = profile.size() >= 2;
+  for (const DipPoint& point : profile)
+    is_line = is_line && std::isfinite(point.z) && std::isfinite(point.shift);
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k)
+    is_line = is_line && profile[k].z < profile[k + 1].z;
+  check.demand(is_line, pointer, concat("a profile of ", name, " is no line that goes down"),
+               "give two points or more, each at a depth of its own");
+  if (!is_line) return;
+  const double dip = least_dip(profile);
+  check.demand(dip >= kLeast - kSlack, pointer,
+               concat(name, " dips by ", decimal(dip * 180 / std::numbers::pi, 3), " degrees"),
+               "let it dip by 5 to 90 degrees");
+}
+
+void check_profiles(const LayeredFault& fault, const std::string& pointer, NumberCheck& check) {
   const std::string name = "\"" + fault.name + "\"";
-  if (fault.listric.empty()) {
-    constexpr double kLeast = 5 * std::numbers::pi / 180;
-    check.demand(
-        fault.dip >= kLeast && fault.dip <= std::numbers::pi / 2, pointer + "/dip",
-        concat(name, " dips by ", decimal(fault.dip * 180 / std::numbers::pi, 3), " degrees"),
-        "give 5 to 90 degrees, and the side that it dips to");
-    return;
-  }
-  std::vector<DipPoint> points = fault.listric;
-  std::ranges::sort(points, {}, &DipPoint::z);
-  bool is_profile = points.size() >= 2;
-  for (std::size_t k = 0; k + 1 < points.size(); ++k)
-    is_profile =
-        is_profile && points[k].z < points[k + 1].z && points[k].shift >= points[k + 1].shift;
-  check.demand(is_profile, pointer + "/listric",
-               concat("the profile of ", name, " is no line that goes down and on"),
-               "give two points or more, each at a depth of its own, the shift growing downwards");
+  const std::size_t n = fault.profiles.size();
+  check.demand(n <= 1 || n == fault.trace.size(), pointer,
+               concat(name, " has ", n, " profiles for ",
+                      counted(fault.trace.size(), "point", "points"), " of its trace"),
+               "give one for all of it, or one for each point");
+  for (std::size_t k = 0; k < n; ++k)
+    check_profile(fault.profiles[k], name, concat(pointer, "/", k), check);
 }
 
 void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::string& pointer,
                  NumberCheck& check) {
   const std::string name = "\"" + fault.name + "\"";
-  check_dip(fault, pointer, check);
+  check_profiles(fault, pointer + "/profiles", check);
   const double top = fault.top.value_or(body.top), bottom = fault.bottom.value_or(body.base);
   check.demand(
       top <= body.top && bottom >= body.base && top - bottom > body.cells.at_faults, pointer,
@@ -72,10 +89,10 @@ void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::
   if (!fault.moved) return;
   const FaultThrow& moved = *fault.moved;
   check.demand(
-      std::isfinite(moved.down) && moved.footwall_share >= 0 && moved.footwall_share <= 1 &&
+      std::isfinite(moved.down) && moved.left_share >= 0 && moved.left_share <= 1 &&
           moved.reach > 0 && !(moved.taper < 0),
       pointer + "/throw", concat("the throw of ", name, " makes no sense"),
-      "give metres, a footwall's share in [0, 1], a reach above 0 and a taper of 0 or more");
+      "give metres, a share of the left side in [0, 1], a reach above 0 and a taper of 0 or more");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/horizons/body_check.h"
 #include "simulator/horizons/columns.h"
+#include "simulator/horizons/pillar_check.h"
 #include "simulator/horizons/tet_quality.h"
 
 namespace faultsim::horizons {

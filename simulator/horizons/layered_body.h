@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -80,26 +79,30 @@ enum class TraceEnd {
   at_fault,  ///< on the trace of another one, which goes on (T).
 };
 
-/// Which side of a trace, seen along it, the fault dips to: there is its hanging wall.
-enum class DipSide { left, right };
-
-/// How far a curved fault has gone towards its hanging wall at a depth.
+/// How far a fault lies to the right of its trace (seen along it) at a depth, m; negative: left.
 struct DipPoint {
   double z;
-  double shift;  ///< m, towards the hanging wall; falls as z grows.
+  double shift;
 };
 
-/// How far the hanging wall has moved down along a fault (negative: up).
+/// A line down a fault, by points from top to bottom or back: straight between them, and beyond
+/// them as its first and last pieces. What counts is how far it goes from the depth of traces on.
+using DipProfile = std::vector<DipPoint>;
+
+/// A straight one. @param lean  m to the right for each m downwards: tan of the dip from the
+/// vertical.
+inline DipProfile straight_profile(double lean) { return {{0, 0}, {-1, lean}}; }
+
+/// How much deeper the rock lies to the right of a fault's trace (negative: higher).
 ///
-/// The shift of a horizon is −throw · (1 − footwall_share) on the hanging wall and throw ·
-/// footwall_share on the footwall, all along the trace, but over `taper` from an end in the rock,
-/// where both fall linearly to zero. Away from the fault the shift fades as u − reach² ∇²u = 0
-/// does, without crossing other faults; with an infinite reach a part of the map that faults cut
-/// off moves as a whole. Where a fault ends in depth the shift of a horizon falls linearly to zero
-/// over the last 2 |throw| of it.
+/// The shift of a horizon is −down · (1 − left_share) on the right and down · left_share on the
+/// left, all along the trace, but over `taper` from an end in the rock, where both fall linearly to
+/// zero. Away from the fault the shift fades as u − reach² ∇²u = 0 does, without crossing other
+/// faults; with an infinite reach a part of the map that faults cut off moves as a whole. Where a
+/// fault ends in depth the shift of a horizon falls linearly to zero over the last 2 |down| of it.
 struct FaultThrow {
   double down = 0;
-  double footwall_share = 0.5;                              ///< [0, 1].
+  double left_share = 0.5;                                  ///< [0, 1].
   double reach = std::numeric_limits<double>::infinity();   ///< m, > 0.
   double taper = std::numeric_limits<double>::quiet_NaN();  ///< m; NaN: a quarter of the trace.
 };
@@ -110,11 +113,11 @@ struct LayeredFault {
   std::vector<Eigen::Vector2d> trace;  ///< >= 2 points.
   TraceEnd first_end = TraceEnd::in_rock;
   TraceEnd last_end = TraceEnd::in_rock;
-  DipSide dips_to = DipSide::right;
-  double dip = std::numbers::pi / 2;  ///< from the horizontal, (0, π/2].
-  std::vector<DipPoint> listric;      ///< from top to bottom or back; empty: `dip` holds.
-  std::optional<double> top;          ///< where it ends upwards; empty: at the top of the box.
-  std::optional<double> bottom;       ///< where it ends downwards; empty: at the base.
+  /// Lines down the fault, the same all along it or one per point of the trace; between two points
+  /// shifts at a depth are linear along the trace. Empty: it is vertical.
+  std::vector<DipProfile> profiles;
+  std::optional<double> top;     ///< where it ends upwards; empty: at the top of the box.
+  std::optional<double> bottom;  ///< where it ends downwards; empty: at the base.
   /// Empty: what the points of horizons say; horizons given otherwise go on across the fault.
   std::optional<FaultThrow> moved;
 };

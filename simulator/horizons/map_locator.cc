@@ -15,8 +15,8 @@ struct MovedTriangle {
   std::array<double, 3> share;
 
   MovedTriangle(const std::array<int, 3>& triangle, const Pillars& pillars,
-                const std::vector<double>& shifts, const Vector2d& place) {
-    for (std::size_t v = 0; v < 3; ++v) corner[v] = pillars.in_map(triangle[v], shifts);
+                const PillarDepth& depth, const Vector2d& place) {
+    for (std::size_t v = 0; v < 3; ++v) corner[v] = pillars.in_map(triangle[v], depth);
     const double all = cross_of(corner[0], corner[1], corner[2]);
     for (std::size_t v = 0; v < 3; ++v)
       share[v] = cross_of(place, corner[(v + 1) % 3], corner[(v + 2) % 3]) / all;
@@ -67,9 +67,9 @@ int MapLocator::start_at(const Vector2d& at) const {
 PlaceOnMap MapLocator::find(const Vector3d& point) const {
   const Vector2d there = point.head<2>();
   const Vector2d inside = there.cwiseMax(low_).cwiseMin(high_);
-  const std::vector<double> shifts = pillars_.shifts_at(point.z());
+  const PillarDepth depth = pillars_.depth(point.z());
   const auto place = [&](int triangle) -> PlaceOnMap {
-    const MovedTriangle moved(map_.triangles[triangle], pillars_, shifts, inside);
+    const MovedTriangle moved(map_.triangles[triangle], pillars_, depth, inside);
     Vector2d at = there - inside;
     for (std::size_t v = 0; v < 3; ++v)
       at += moved.share[v] * map_.vertices[map_.triangles[triangle][v]];
@@ -78,7 +78,7 @@ PlaceOnMap MapLocator::find(const Vector3d& point) const {
   // From triangle to triangle, over the side that the point lies furthest beyond.
   int triangle = start_at(inside);
   for (std::size_t step = 0; step < map_.triangles.size(); ++step) {
-    const MovedTriangle moved(map_.triangles[triangle], pillars_, shifts, inside);
+    const MovedTriangle moved(map_.triangles[triangle], pillars_, depth, inside);
     const std::size_t least = moved.least();
     const int next = across_[triangle][least];
     if (moved.share[least] >= 0 || next < 0) return place(triangle);
@@ -87,7 +87,7 @@ PlaceOnMap MapLocator::find(const Vector3d& point) const {
   // The way can go in circles; then all are looked at.
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t t = 0; t < map_.triangles.size(); ++t) {
-    const MovedTriangle moved(map_.triangles[t], pillars_, shifts, inside);
+    const MovedTriangle moved(map_.triangles[t], pillars_, depth, inside);
     if (moved.share[moved.least()] <= best) continue;
     best = moved.share[moved.least()];
     triangle = static_cast<int>(t);

@@ -3,58 +3,51 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "simulator/common/errors.h"
+#include "simulator/horizons/fault_shape.h"
 #include "simulator/horizons/map_mesh.h"
+#include "simulator/horizons/smooth_field.h"
 
 namespace faultsim::horizons {
 
-/// How far a fault has gone towards its hanging wall since the depth of traces, along z: linear
-/// between points, constant above its top and below its bottom.
-class FaultShift {
- public:
-  /// @param top, bottom  z of the box.
-  FaultShift(const LayeredFault& fault, double top, double bottom, double trace_depth);
-  double at(double z) const;
-  const std::vector<DipPoint>& points() const { return points_; }  ///< z ascending.
-
- private:
-  std::vector<DipPoint> points_;
+/// A depth, and the knots of pillars that it lies between.
+struct PillarDepth {
+  double z;
+  std::size_t knot;  ///< the lower one.
+  double part;       ///< of the way from it to the next.
 };
 
 /// A line through every vertex of the map from the base to the top, on which all nodes lie:
-/// x(v, z) = x_v + Σ_f W_f(v) · shift_f(z). On a fault n_f · W_f = 1 (n towards the hanging wall)
-/// and n_f · W_g = 0 of all others, so that pillars stay on its surface; on sides of the box n · W
-/// = 0. Where two of these meet both hold: a T or an X follows the line where both surfaces meet.
-/// What is left free is as smooth as can be: ∫|ΔW|² is least.
+/// x(v, z) = x_v + u(v, z). On a fault n · u is what its surface has moved there (FaultShape), so
+/// that pillars stay on it, also where they slide along it; on sides of the box n · u = 0. Where
+/// two of these meet both hold: a T or an X follows the line where both surfaces meet. What is left
+/// free is as smooth as can be: ∫|Δu|² is least at each knot, a depth where some fault ends or
+/// bends, and u is linear in z between.
+///
+/// Where a fault changes its dip along its trace, and pillars slide along it, they bend between
+/// knots too: on the fault they are put back on it at every depth. On a fault whose trace bends
+/// they cut the corner of the trace then.
 class Pillars {
  public:
   Pillars(const LayeredBody& body, const MapMesh& map);
-  Eigen::Vector2d in_map(int vertex, double z) const;
+  /// The place of a pillar at a depth; depths are found once for many pillars.
+  PillarDepth depth(double z) const;
+  Eigen::Vector2d in_map(int vertex, const PillarDepth& depth) const;
+  Eigen::Vector2d in_map(int vertex, double z) const { return in_map(vertex, depth(z)); }
   Eigen::Vector3d at(int vertex, double z) const;
-  /// Of all faults at a depth, m; and a pillar's place there.
-  std::vector<double> shifts_at(double z) const;
-  Eigen::Vector2d in_map(int vertex, const std::vector<double>& shifts) const;
-  const FaultShift& shift(int fault) const { return shifts_[fault]; }
+  /// z of the knots, ascending.
+  const std::vector<double>& depths() const { return depths_; }
 
  private:
+  Eigen::Vector2d on_faults(std::size_t vertex, double z, const Eigen::Vector2d& moved) const;
+  std::vector<Eigen::Vector2d> moved_at(double z) const;
+  double value(const FieldRule& rule, double z, const Eigen::Vector2d& moved) const;
+
   std::vector<Eigen::Vector2d> vertices_;
-  std::vector<FaultShift> shifts_;
-  std::vector<std::vector<Eigen::Vector2d>> w_;  ///< per fault, per vertex.
+  std::vector<FaultShape> shapes_;
+  SmoothField field_;
+  std::vector<bool> is_put_back_;  ///< per vertex, whether it is on a fault that changes its dip.
+  std::vector<double> depths_;
+  std::vector<std::vector<Eigen::Vector2d>> moved_;  ///< per knot, per vertex.
 };
-
-/// Towards the hanging wall, across the trace at each of its vertices; of length 1 / cos of half
-/// the angle by which the trace bends there, so that both pieces move by 1.
-std::vector<Eigen::Vector2d> hanging_directions(const LayeredFault& fault, const MapMesh& map,
-                                                int line);
-
-/// Before pillars are made: a fault that leaves the box in depth, two that cut each other in depth
-/// where they do not meet at the depth of traces. Appended to problems, with place.
-void check_faults_in_depth(const LayeredBody& body, const MapMesh& map,
-                           std::vector<Problem>& problems);
-
-/// Pillars that cross, or come closer than a tenth of their distance (by the area of triangles at
-/// one depth), appended to problems with the worst place.
-void check_pillars(const LayeredBody& body, const MapMesh& map, const Pillars& pillars,
-                   std::vector<Problem>& problems);
 
 }  // namespace faultsim::horizons

@@ -43,15 +43,14 @@ struct HeldThrow {
 void hold_sides(const MapMesh& map, const CutMap& cut, const LayeredFault& fault,
                 const TracePiece& piece, const std::vector<double>& parts, HeldThrow& held) {
   const std::vector<int>& line = map.lines[piece.fault];
-  const double up = fault.moved->down * fault.moved->footwall_share, down = fault.moved->down - up;
+  const double up = fault.moved->down * fault.moved->left_share, down = fault.moved->down - up;
   const bool is_forward = line[piece.k] == piece.side->a;
   for (const int triangle : {piece.side->left, piece.side->right}) {
     const bool is_left = (triangle == piece.side->left) == is_forward;
-    const bool hangs = is_left == (fault.dips_to == DipSide::left);
     for (const std::size_t k : {piece.k, piece.k + 1}) {
       const int place = place_at(map, cut, triangle, line[k]);
       held.is_held[place] = true;
-      held.up[place] = parts[k] * (hangs ? -down : up);
+      held.up[place] = parts[k] * (is_left ? up : -down);
     }
   }
 }

@@ -103,7 +103,10 @@ std::vector<std::string> table_names(const json& scene) {
   };
   add_fault_pressure(scene);
   if (const json* faults = child_at(scene, "faults"); faults != nullptr && faults->is_array()) {
-    for (const json& fault : *faults) add_fault_pressure(fault);
+    for (const json& fault : *faults) {
+      add_fault_pressure(fault);
+      add(fault, "surface");
+    }
   }
   if (const json* layers = value_at(scene, "/geometry/layers");
       layers != nullptr && layers->is_array()) {

@@ -5,12 +5,13 @@
 
 #include "simulator/documents/json_document.h"
 
-/// A scene names CSV files; where it travels (a campaign's store, a result folder) their text goes
-/// with it in "tables": {"file name": [lines]}, and the files are looked at no more.
+/// A scene names CSV files and surfaces of faults; where it travels (a campaign's store, a result
+/// folder) their text goes with it in "tables": {"file name": [lines]}, and the files are looked at
+/// no more.
 namespace faultsim {
 
 /// The names of the CSV files that a scene uses, each once: of /pressure_csv, /compartments/*/csv,
-/// the csv of fault pressures and that of tops of layers.
+/// the csv of fault pressures and that of tops of layers, and surfaces of faults.
 std::vector<std::string> table_names(const nlohmann::json& scene);
 
 /// Puts the lines of a CSV file into the scene's "tables", unless it is there. A file that cannot

@@ -8,9 +8,9 @@ const std::vector<std::string_view>& place_keys(std::string_view kind) {
   using Keys = std::vector<std::string_view>;
   static const Keys field = {"dip_from_vertical"};
   static const Keys box = {"center", "strike", "length", "width", "shape", "dip_from_vertical"};
-  static const Keys horizons = {"trace",       "first_end",   "last_end",          "listric",
-                                "top",         "bottom",      "dip_from_vertical", "throw",
-                                "throw_share", "throw_reach", "throw_taper"};
+  static const Keys horizons = {"trace",   "first_end",   "last_end",    "listric",
+                                "surface", "top",         "bottom",      "dip_from_vertical",
+                                "throw",   "throw_share", "throw_reach", "throw_taper"};
   static const Keys none;
   if (kind == "field") return field;
   if (kind == "box") return box;

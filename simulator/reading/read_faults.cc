@@ -236,6 +236,15 @@ void refuse_other_places(SceneReader& reader, const std::string& at) {
   }
 }
 
+/// A list of dips says where a fault of horizons is; the scene's number is of other bodies.
+void read_dip_list(SceneReader& reader, const std::string& pointer, Fault& fault) {
+  const nlohmann::json* given = reader.find(pointer);
+  if (given == nullptr || !given->is_array()) return;
+  fault.dip_from_vertical = 0;
+  if (is_of_horizons(reader) || !reader.sound(pointer)) return;
+  reader.problem(pointer, "a fault of this body has one dip", "write one value");
+}
+
 /// The patch of a fault of a box, or the mean plane of that of a mesh; of a field no more than the
 /// dip is given.
 void read_place(SceneReader& reader, const std::string& at, const Fault& fault, Scene& scene) {
@@ -282,6 +291,7 @@ void read_faults(SceneReader& reader, Scene& scene) {
     const std::string at = element("/faults", i) + "/";
     Fault fault;
     read_keys(reader, at, fault);
+    read_dip_list(reader, at + "dip_from_vertical", fault);
     const std::string own_biot = at + "fault_biot";
     fault.fault_biot = reader.real(reader.has(own_biot) ? own_biot : "/fault_pressure/fault_biot",
                                    fault.fault_biot);

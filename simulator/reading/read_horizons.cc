@@ -28,7 +28,8 @@ bool is_buildable(const SceneReader& reader) {
     return false;
   for (std::size_t i = 0; i < reader.size("/faults"); ++i) {
     const std::string at = element("/faults", i);
-    if (!reader.sound(at + "/name") || !reader.has(at + "/trace")) return false;
+    const bool has_place = reader.has(at + "/trace") || reader.has(at + "/surface");
+    if (!reader.sound(at + "/name") || !has_place) return false;
     for (const std::string_view key : place_keys("horizons"))
       if (!reader.sound(at + "/" + std::string(key))) return false;
   }
@@ -164,7 +165,7 @@ std::optional<BoxGeometry> body_of(SceneReader& reader, const BodyOfKeys& keys) 
     body = build(keys, reader.document().source);
   } catch (const InputError& error) {
     for (const Problem& problem : error.problems())
-      reader.problem(scene_pointer(problem.pointer), problem.what, problem.cure);
+      reader.problem(scene_pointer(reader, problem.pointer), problem.what, problem.cure);
     return std::nullopt;
   }
   last.keep(key, *body);

@@ -1,15 +1,17 @@
 #include "simulator/reading/read_layered_body.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <string_view>
 #include <utility>
 
 #include "simulator/common/ranges.h"
+#include "simulator/horizons/depth_surface.h"
+#include "simulator/horizons/drawn_surface.h"
+#include "simulator/horizons/traces.h"
 #include "simulator/reading/csv_tables.h"
+#include "simulator/reading/fault_surface.h"
 #include "simulator/reading/horizon_csv.h"
 #include "simulator/reading/read_body.h"
 
@@ -29,8 +31,9 @@ class BodyReader {
     read_layers();
     read_compartments();
     read_dividers();
-    for (std::size_t i = 0; i < reader_.size("/faults"); ++i) read_fault(element("/faults", i));
     read_cells();
+    for (std::size_t i = 0; i < reader_.size("/faults"); ++i) read_fault(element("/faults", i));
+    check_reach();
     return std::move(result_);
   }
 
@@ -55,9 +58,14 @@ class BodyReader {
   void read_compartments();
   void read_dividers();
   void read_fault(const std::string& at);
-  void read_profile(const std::string& at, LayeredFault& fault);
+  void read_profiles(const std::string& at, LayeredFault& fault);
+  void read_listric(const std::string& at, LayeredFault& fault);
+  void read_fault_surface(const std::string& at, LayeredFault& fault);
+  void read_dips(const std::string& at, LayeredFault& fault);
   void read_throw(const std::string& at, LayeredFault& fault);
   void read_cells();
+  std::vector<std::size_t> reservoir_horizons() const;
+  void check_reach();
 
   SceneReader& reader_;
   const Scene& scene_;
@@ -160,45 +168,87 @@ void BodyReader::read_fault(const std::string& at) {
   LayeredFault fault;
   fault.name = reader_.text(at + "/name");
   fault.trace = line(at + "/trace");
-  if (!reader_.has(at + "/trace")) {
-    reader_.problem(at, "the fault \"" + fault.name + "\" has no trace",
-                    R"(add "trace": [["0 m", "-1 km"], ["0 m", "1 km"]], its line in the map)");
+  if (!reader_.has(at + "/trace") && !reader_.has(at + "/surface")) {
+    reader_.problem(
+        at, "the fault \"" + fault.name + "\" has no trace",
+        R"(add "trace": [["0 m", "-1 km"], ["0 m", "1 km"]], its line in the map, or a "surface")");
   }
   fault.first_end = end("/first_end");
   fault.last_end = end("/last_end");
   fault.top = height(at + "/top");
   fault.bottom = height(at + "/bottom");
-  read_profile(at, fault);
+  read_profiles(at, fault);
   read_throw(at, fault);
   body_.faults.push_back(std::move(fault));
 }
 
-/// Shifts in a scene are to the right of the trace, for the builder towards the hanging wall.
-void BodyReader::read_profile(const std::string& at, LayeredFault& fault) {
-  const std::size_t n = reader_.size(at + "/listric");
-  if (n == 0) {
-    const double lean = reader_.real(at + "/dip_from_vertical", 0);
-    fault.dips_to = lean < 0 ? horizons::DipSide::left : horizons::DipSide::right;
-    fault.dip = std::numbers::pi / 2 - std::abs(lean);
-    return;
-  }
-  if (reader_.has(at + "/dip_from_vertical")) {
-    reader_.problem(at + "/dip_from_vertical", "the fault has a profile that says how it dips",
+/// How it goes down: a surface, a curved profile, or dips.
+void BodyReader::read_profiles(const std::string& at, LayeredFault& fault) {
+  std::string said;
+  for (const char* key : {"/surface", "/listric", "/dip_from_vertical"}) {
+    if (!reader_.has(at + key)) continue;
+    if (said.empty()) {
+      said = key;
+      continue;
+    }
+    const std::string other = said == "/surface" ? "surface" : "listric profile";
+    reader_.problem(at + key, "the fault has a " + other + " that says how it dips",
                     "remove one of the two");
   }
-  std::vector<horizons::DipPoint> points;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::string place = element(at + "/listric", k);
-    points.push_back({-reader_.real(place + "/depth"), reader_.real(place + "/shift")});
-  }
-  const auto [low, high] = std::ranges::minmax_element(points, {}, &horizons::DipPoint::z);
-  const bool is_right = low->shift >= high->shift;
-  fault.dips_to = is_right ? horizons::DipSide::right : horizons::DipSide::left;
-  for (horizons::DipPoint& point : points) point.shift = is_right ? point.shift : -point.shift;
-  fault.listric = std::move(points);
+  if (said == "/surface") return read_fault_surface(at, fault);
+  if (said == "/listric") return read_listric(at, fault);
+  read_dips(at + "/dip_from_vertical", fault);
 }
 
-/// A throw in a scene lowers what is right of the trace, for the builder the hanging wall.
+void BodyReader::read_listric(const std::string& at, LayeredFault& fault) {
+  horizons::DipProfile profile;
+  for (std::size_t k = 0; k < reader_.size(at + "/listric"); ++k) {
+    const std::string place = element(at + "/listric", k);
+    profile.push_back({-reader_.real(place + "/depth"), reader_.real(place + "/shift")});
+  }
+  fault.profiles = {std::move(profile)};
+}
+
+/// The trace, unless one is given, the lines down it and its ends, as far as they are in the body.
+void BodyReader::read_fault_surface(const std::string& at, LayeredFault& fault) {
+  const std::string pointer = at + "/surface", name = reader_.text(pointer);
+  const JsonDocument& document = reader_.document();
+  horizons::DrawnSurface surface;
+  try {
+    const std::string text = table_text(document.value, document.source, name);
+    result_.tables += text;
+    surface = parse_fault_surface(text, name, fault.name);
+  } catch (const InputError& error) {
+    return reader_.table_problems(pointer, name, error);
+  }
+  if (!(body_.cells.at_faults > 0) || !reader_.sound("/geometry") || !reader_.sound(at)) return;
+  std::vector<Problem> problems;
+  const horizons::SurfaceLines lines =
+      horizons::lines_of(surface, fault.trace, body_.trace_depth, body_.cells.at_faults, pointer,
+                         fault.name, problems);
+  for (const Problem& one : problems) reader_.problem(one.pointer, one.what, one.cure);
+  if (!problems.empty()) return;
+  fault.trace = lines.trace;
+  fault.profiles = lines.profiles;
+  if (!fault.top && lines.top < body_.top) fault.top = lines.top;
+  if (!fault.bottom && lines.bottom > body_.base) fault.bottom = lines.bottom;
+}
+
+/// One dip, or one for each point of the trace.
+void BodyReader::read_dips(const std::string& at, LayeredFault& fault) {
+  const auto add = [&](double dip) {
+    fault.profiles.push_back(horizons::straight_profile(std::tan(dip)));
+  };
+  const nlohmann::json* dips = reader_.find(at);
+  if (dips == nullptr || !dips->is_array()) return add(reader_.real(at, 0));
+  for (std::size_t k = 0; k < reader_.size(at); ++k) add(reader_.real(element(at, k)));
+  const std::size_t n = fault.profiles.size(), n_points = fault.trace.size();
+  if (n == n_points || n_points == 0 || !reader_.sound(at)) return;
+  reader_.problem(
+      at, concat("has ", counted(n, "dip", "dips"), " for ", n_points, " points of the trace"),
+      "write one for each point, or one for all");
+}
+
 void BodyReader::read_throw(const std::string& at, LayeredFault& fault) {
   if (!reader_.has(at + "/throw")) {
     for (const char* key : {"/throw_share", "/throw_reach", "/throw_taper"}) {
@@ -208,14 +258,51 @@ void BodyReader::read_throw(const std::string& at, LayeredFault& fault) {
     }
     return;
   }
-  const bool is_right = fault.dips_to == horizons::DipSide::right;
-  const double down = reader_.real(at + "/throw"), left = reader_.real(at + "/throw_share", 0.5);
   horizons::FaultThrow moved;
-  moved.down = is_right ? down : -down;
-  moved.footwall_share = is_right ? left : 1 - left;
+  moved.down = reader_.real(at + "/throw");
+  moved.left_share = reader_.real(at + "/throw_share", moved.left_share);
   if (reader_.has(at + "/throw_reach")) moved.reach = reader_.real(at + "/throw_reach");
   if (reader_.has(at + "/throw_taper")) moved.taper = reader_.real(at + "/throw_taper");
   fault.moved = moved;
+}
+
+/// Those above and below layers whose pressure changes.
+std::vector<std::size_t> BodyReader::reservoir_horizons() const {
+  std::vector<std::size_t> found;
+  for (std::size_t h = 0; h < body_.horizons.size(); ++h)
+    for (const horizons::Compartment& one : body_.compartments)
+      if (one.region[h] >= 0 || one.region[h + 1] >= 0) found.push_back(h);
+  drop_repeated(found);
+  return found;
+}
+
+/// Surfaces of faults that end within the reservoir: more likely cut off than meant.
+void BodyReader::check_reach() {
+  if (!reader_.sound("/geometry") || !reader_.sound("/faults")) return;
+  std::vector<Problem> problems;  // said by the builder
+  for (const std::size_t h : reservoir_horizons()) {
+    std::optional<horizons::DepthSurface> horizon;
+    for (std::size_t f = 0; f < body_.faults.size() && problems.empty(); ++f) {
+      const LayeredFault& fault = body_.faults[f];
+      const std::string at = element("/faults", f);
+      if (!reader_.has(at + "/surface")) continue;
+      if (!horizon) horizon.emplace(body_.horizons[h].depth, "", problems);
+      for (const Vector2d& place : fault.trace) {
+        const double z = problems.empty() ? horizon->at(place) : kNaN;
+        const bool is_above = !reader_.has(at + "/top") && z > fault.top.value_or(body_.top);
+        const bool is_below = !reader_.has(at + "/bottom") && z < fault.bottom.value_or(body_.base);
+        if (!is_above && !is_below) continue;
+        reader_.problem(
+            at + "/surface",
+            concat("the surface of \"", fault.name, "\" ends within the reservoir: its ",
+                   is_above ? "top lies below" : "base lies above", " the ", body_.horizons[h].name,
+                   " at ", horizons::map_place(place), ", ", metres(-z), " depth"),
+            concat("give a surface that goes on, or write \"", is_above ? "top" : "bottom",
+                   "\": it goes on straight to there"));
+        break;
+      }
+    }
+  }
 }
 
 void BodyReader::read_cells() {
@@ -225,20 +312,33 @@ void BodyReader::read_cells() {
   body_.cells.far = reader_.real("/mesh/largest", std::max(kFar, body_.cells.at_faults));
 }
 
+/// "/faults/0/profiles/1" is about the key that gave them.
+std::string fault_pointer(const SceneReader& reader, const std::string& of_body) {
+  const std::size_t slash = of_body.find('/', std::string_view("/faults/").size());
+  if (slash == std::string::npos) return of_body;
+  const std::string fault = of_body.substr(0, slash), key = of_body.substr(slash);
+  const bool is_profile = key.starts_with("/profiles");
+  if (reader.has(fault + "/surface") && (is_profile || !reader.has(fault + key)))
+    return fault + "/surface";
+  if (!is_profile) return of_body;
+  if (reader.has(fault + "/listric")) return fault + "/listric";
+  const std::string dip = fault + "/dip_from_vertical";
+  const nlohmann::json* given = reader.find(dip);
+  const bool is_list = given != nullptr && given->is_array();
+  return is_list ? dip + key.substr(std::string_view("/profiles").size()) : dip;
+}
+
 }  // namespace
 
 BodyOfKeys read_layered_body(SceneReader& reader, const Scene& scene) {
   return BodyReader(reader, scene).read();
 }
 
-std::string scene_pointer(const std::string& of_body) {
+std::string scene_pointer(const SceneReader& reader, const std::string& of_body) {
   const std::string_view at = of_body;
   const auto begins = [&](std::string_view word) { return at.starts_with(word); };
-  if (begins("/faults")) {
-    const std::size_t key = of_body.find('/', std::string_view("/faults/").size());
-    if (key == std::string::npos || of_body.substr(key) != "/dip") return of_body;
-    return of_body.substr(0, key) + "/dip_from_vertical";
-  }
+  if (begins("/faults/")) return fault_pointer(reader, of_body);
+  if (begins("/faults")) return of_body;
   if (begins("/cells")) return "/mesh";
   if (begins("/box")) return "/geometry";
   if (!begins("/horizons/")) return "/geometry" + of_body;

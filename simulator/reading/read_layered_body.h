@@ -29,6 +29,6 @@ BodyOfKeys read_layered_body(SceneReader& reader, const Scene& scene);
 
 /// Where the scene says what a pointer of the builder's is about: "/horizons/0/depth" is the top of
 /// the second layer.
-std::string scene_pointer(const std::string& of_body);
+std::string scene_pointer(const SceneReader& reader, const std::string& of_body);
 
 }  // namespace faultsim

@@ -40,13 +40,19 @@ inline LayeredBody reservoir_body() {
   return body;
 }
 
+/// A plane that dips by so many degrees from the horizontal to the right of its trace; < 0: to the
+/// left.
+inline std::vector<DipProfile> dipping(double degrees) {
+  return {straight_profile(1 / std::tan(degrees * kDegree))};
+}
+
 /// Across the box along y at x = 0, dipping by 60 degrees to larger x.
 inline LayeredFault dipping_fault() {
   LayeredFault fault;
   fault.name = "F";
   fault.trace = {{0, -2000}, {0, 2000}};
   fault.first_end = fault.last_end = TraceEnd::at_edge;
-  fault.dip = 60 * kDegree;
+  fault.profiles = dipping(60);
   return fault;
 }
 
@@ -63,9 +69,9 @@ inline std::vector<Eigen::Vector2d> bowed(const Eigen::Vector2d& from, const Eig
   return trace;
 }
 
-/// A listric profile from `upper` at z = -1950 to `lower` at z = -3100 m (dips).
-inline std::vector<DipPoint> listric(double upper, double lower) {
-  std::vector<DipPoint> profile = {{-1950, 0}};
+/// A listric profile to the right from `upper` at z = -1950 to `lower` at z = -3100 m (dips).
+inline DipProfile listric(double upper, double lower) {
+  DipProfile profile = {{-1950, 0}};
   constexpr int kPieces = 12;
   for (int k = 0; k < kPieces; ++k) {
     const double dip = upper + (lower - upper) * (k + 0.5) / kPieces, down = 1150.0 / kPieces;
@@ -104,12 +110,13 @@ inline LayeredBody random_body(unsigned seed) {
     LayeredFault one;
     one.name = name;
     one.trace = trace;
-    one.dips_to = between(0, 1) < 0.5 ? DipSide::left : DipSide::right;
+    const int side = between(0, 1) < 0.5 ? -1 : 1;
     const double dip = between(40, 85);
-    one.listric = listric(dip * kDegree, std::max(40.0, dip - between(0, 22)) * kDegree);
+    one.profiles = {listric(dip * kDegree, std::max(40.0, dip - between(0, 22)) * kDegree)};
+    for (DipPoint& point : one.profiles[0]) point.shift *= side;
     one.top = -1950;
     one.bottom = -3100;
-    one.moved = FaultThrow{between(-220, 220), 0.5, 900};
+    one.moved = FaultThrow{side * between(-220, 220), 0.5, 900};
     return one;
   };
   const auto trace = [&](double x0, double y0, double x1, double y1) {
@@ -124,6 +131,25 @@ inline LayeredBody random_body(unsigned seed) {
   body.faults.push_back(fault("F4", bowed(first[at], {1300, 900}, 80)));
   body.faults.back().first_end = TraceEnd::at_fault;
   return body;
+}
+
+/// Lets dips change along each trace: shifts by up to a third less or more at its ends.
+inline void change_dips(LayeredBody& body, unsigned seed) {
+  std::mt19937 random(seed);
+  for (LayeredFault& fault : body.faults) {
+    const auto change = [&] {
+      return static_cast<double>(random()) / 4294967296.0 * 2 / 3 - 1. / 3;
+    };
+    const double first = change(), last = change();
+    const DipProfile profile = fault.profiles[0];
+    const auto n = static_cast<double>(fault.trace.size() - 1);
+    fault.profiles.clear();
+    for (std::size_t k = 0; k < fault.trace.size(); ++k) {
+      fault.profiles.push_back(profile);
+      const double u = static_cast<double>(k) / n, factor = 1 + (1 - u) * first + u * last;
+      for (DipPoint& point : fault.profiles.back()) point.shift *= factor;
+    }
+  }
 }
 
 /// What building the body says is wrong, or "".

@@ -14,6 +14,7 @@ namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector3d;
+using test::dipping;
 using test::dipping_fault;
 using test::kDegree;
 using test::refusal_of;
@@ -97,7 +98,7 @@ TEST(BuildBody, ADippingFaultWithThrowIsExact) {
 TEST(BuildBody, TellsTheThrowsOfItsFaults) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
-  body.faults[0].dip = 90 * kDegree;
+  body.faults[0].profiles.clear();
   body.faults[0].moved.reset();
   // Deeper by 40 to 80 m on the right of the trace, seen along it.
   PointDepth points;
@@ -254,7 +255,7 @@ TEST(BuildBody, ATIsFoundByCut) {
   branch.trace = {{0, -300}, {1500, 400}};
   branch.first_end = TraceEnd::at_fault;
   branch.last_end = TraceEnd::in_rock;
-  branch.dip = 70 * kDegree;
+  branch.profiles = dipping(70);
   branch.top = -1500;
   branch.bottom = -2600;
   branch.moved = FaultThrow{60, 0.5, 600};
@@ -274,7 +275,7 @@ TEST(BuildBody, AnXIsFoundByCut) {
   crossing.name = "X";
   crossing.trace = {{-1300, -400}, {1400, 300}};
   crossing.first_end = crossing.last_end = TraceEnd::in_rock;
-  crossing.dip = 75 * kDegree;
+  crossing.profiles = dipping(75);
   crossing.top = -1500;
   crossing.bottom = -2600;
   body.faults = {dipping_fault(), crossing};
@@ -303,17 +304,19 @@ TEST(BuildBody, AllNumbersThatMakeNoSenseAreToldAtOnce) {
   body.layers.pop_back();
   body.cells.far = 10;
   body.faults = {dipping_fault()};
-  body.faults[0].dip = 91 * kDegree;
+  body.faults[0].profiles = dipping(4);
   body.faults[0].bottom = -5000;
   body.faults[0].moved = FaultThrow{100, 0.5, 0};
   body.compartments = {{"west", {0, 0}, {1}}};
   const std::string said = refusal_of(body);
-  for (const char* what :
-       {"horizons bound 3 layers, not 2", "sizes of cells", "dips by 91 degrees",
-        "reaches from z -5000", "the throw of \"F\"", "has 1 region for 2 layers"})
+  for (const char* what : {"horizons bound 3 layers, not 2", "sizes of cells",
+                           "/faults/0/profiles/0: \"F\" dips by 4 degrees", "reaches from z -5000",
+                           "the throw of \"F\"", "has 1 region for 2 layers"})
     EXPECT_THAT(said, HasSubstr(what));
-  body.faults[0].listric = {{-1000, 100}, {-2000, 0}};
-  EXPECT_THAT(refusal_of(body), HasSubstr("is no line that goes down and on"));
+  body.faults[0].profiles = {{{-1000, 100}, {-1000, 0}}};
+  EXPECT_THAT(refusal_of(body), HasSubstr("a profile of \"F\" is no line that goes down"));
+  body.faults[0].profiles.resize(3);
+  EXPECT_THAT(refusal_of(body), HasSubstr("\"F\" has 3 profiles for 2 points of its trace"));
 }
 
 TEST(TetQuality, IsOneOfARegularAndSignedOfATurnedOne) {

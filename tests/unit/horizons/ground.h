@@ -56,7 +56,7 @@ struct FaultedDome {
     body.high = {3000, 3000};
     body.cells.at_faults = 50;
     LayeredFault fault = dipping_fault();
-    fault.dip = dip;
+    fault.profiles = {straight_profile(1 / std::tan(dip))};
     fault.trace = {{0, -half}, {0, half}};
     fault.first_end = fault.last_end = TraceEnd::in_rock;
     body.faults = {fault};

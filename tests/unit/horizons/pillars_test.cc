@@ -7,12 +7,14 @@
 #include <cmath>
 
 #include "simulator/horizons/ladders.h"
+#include "simulator/horizons/pillar_check.h"
 #include "tests/unit/horizons/bodies.h"
 
 namespace faultsim::horizons {
 namespace {
 
 using Eigen::Vector2d;
+using test::dipping;
 using test::dipping_fault;
 using test::kDegree;
 using test::meshed;
@@ -39,39 +41,17 @@ LayeredFault oblique_branch() {
   fault.trace = {{0, -300}, {1500, 700}};
   fault.first_end = TraceEnd::at_fault;
   fault.last_end = TraceEnd::in_rock;
-  fault.dip = 70 * kDegree;
-  fault.dips_to = DipSide::left;
+  fault.profiles = dipping(-70);
   fault.top = -1000;
   fault.bottom = -3000;
   return fault;
-}
-
-TEST(FaultShift, APlaneGoesToItsHangingWallDownwards) {
-  LayeredFault fault = dipping_fault();
-  fault.top = -1000;
-  fault.bottom = -3000;
-  const FaultShift shift(fault, 0, -4000, -2000);
-  EXPECT_NEAR(shift.at(-2000), 0, 1e-9);
-  EXPECT_NEAR(shift.at(-2500), 500 / std::tan(60 * kDegree), 1e-9);
-  EXPECT_EQ(shift.at(-3000), shift.at(-4000)) << "straight down below its end";
-  EXPECT_NEAR(shift.at(0), -1000 / std::tan(60 * kDegree), 1e-9);
-}
-
-TEST(FaultShift, AListricProfileIsTakenRelativeToTheDepthOfTraces) {
-  LayeredFault fault = dipping_fault();
-  fault.listric = {{-1000, 5}, {-2000, 105}, {-3000, 405}};
-  const FaultShift shift(fault, 0, -4000, -2500);
-  EXPECT_NEAR(shift.at(-2500), 0, 1e-9);
-  EXPECT_NEAR(shift.at(-1000), -250, 1e-9);
-  EXPECT_NEAR(shift.at(-3000), 150, 1e-9);
-  EXPECT_NEAR(shift.at(-4000), 450, 1e-9) << "goes on as its last piece";
 }
 
 TEST(Pillars, OfAPlaneFaultStayOnItsPlane) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault(), oblique_branch()};
   // The T slides 2,000 / tan(80°) / sin(56°) = 424 m along a branch of 1,803 m: room for pillars.
-  body.faults[0].dip = 80 * kDegree;
+  body.faults[0].profiles = dipping(80);
   const MadePillars made(body);
   for (const Problem& one : made.problems()) ADD_FAILURE() << one.what;
   const Vector2d n = Vector2d(-1000, 1500).normalized();  // of B, to its left
@@ -89,19 +69,69 @@ TEST(Pillars, BothPiecesOfABendMoveAlike) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
   body.faults[0].trace = {{1000, -2000}, {0, 0}, {1000, 2000}};
-  body.faults[0].dip = 80 * kDegree;
+  body.faults[0].profiles = dipping(80);
   const MadePillars made(body);
   const std::vector<int>& line = made.map.lines[0];
   const auto bend =
       std::ranges::find_if(line, [&](int v) { return made.map.vertices[v].norm() < 1e-9; });
   ASSERT_NE(bend, line.end());
-  const std::vector<Vector2d> along = hanging_directions(body.faults[0], made.map, 0);
-  const Vector2d at_bend = along[static_cast<std::size_t>(bend - line.begin())];
+  const Vector2d at_bend =
+      fault_shapes(body, made.map)[0].across(static_cast<std::size_t>(bend - line.begin()));
   EXPECT_NEAR(at_bend.dot(Vector2d(2000, 1000).normalized()), 1, 1e-9);
   EXPECT_NEAR(at_bend.dot(Vector2d(2000, -1000).normalized()), 1, 1e-9);
   // Traces run at 2 in 1: the corner moves by 1 / cos 26.6° = √5 / 2.
   EXPECT_NEAR(made.pillars.in_map(*bend, -3000).x(),
               1000 / std::tan(80 * kDegree) * std::sqrt(5.0) / 2, 1e-6);
+}
+
+/// Of a straight trace: how far a place lies from the ruled surface between two profiles, m.
+double off_ruled_surface(const LayeredFault& fault, const Vector2d& at, double z,
+                         double trace_depth) {
+  const Vector2d &from = fault.trace.front(), &to = fault.trace.back();
+  const Vector2d along = (to - from).normalized(), right(along.y(), -along.x());
+  const double part = std::clamp((at - from).dot(along) / (to - from).norm(), 0.0, 1.0);
+  const double first = fault.profiles.front()[1].shift, last = fault.profiles.back()[1].shift;
+  const double down = trace_depth - std::clamp(z, *fault.bottom, *fault.top);
+  return (at - from).dot(right) - (first + part * (last - first)) * down;
+}
+
+/// Leans of 0.1 to 0.55 along an oblique trace, which pillars slide along, and a branch whose lean
+/// turns over: the T lies on both surfaces at every depth.
+TEST(Pillars, OfADipThatChangesAlongTheTraceStayOnTheRuledSurface) {
+  LayeredBody body = reservoir_body();
+  LayeredFault main = dipping_fault(), branch = oblique_branch();
+  main.trace = {{-250, -2000}, {250, 2000}};
+  main.profiles = {straight_profile(0.1), straight_profile(0.55)};
+  main.top = -500;
+  main.bottom = -3500;
+  branch.trace = {{-37.5, -300}, {1500, 700}};
+  branch.profiles = {straight_profile(0.25), straight_profile(-0.1)};
+  body.faults = {main, branch};
+  const MadePillars made(body);
+  for (const Problem& one : made.problems()) ADD_FAILURE() << one.what;
+  double most_slid = 0;
+  for (int f = 0; f < 2; ++f)
+    for (const double z : {-4000., -3500., -2961.7, -2000., -1534.2, -1000., -333.3, 0.})
+      for (const int v : made.map.lines[f]) {
+        const Vector2d at = made.pillars.in_map(v, z);
+        EXPECT_NEAR(off_ruled_surface(body.faults[f], at, z, body.trace_depth), 0, 1e-9)
+            << body.faults[f].name << " at z " << z << ", vertex " << v;
+        const Vector2d along = (body.faults[f].trace[1] - body.faults[f].trace[0]).normalized();
+        most_slid = std::max(most_slid, std::abs((at - made.map.vertices[v]).dot(along)));
+      }
+  EXPECT_GT(most_slid, 100) << "the T slides along its faults";
+}
+
+TEST(Pillars, EqualDipsAreOneDip) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{-100, -2000}, {0, 0}, {-100, 2000}};
+  body.faults[0].profiles = dipping(75);
+  const BuiltBody one = build_body(body, "body");
+  body.faults[0].profiles.resize(3, body.faults[0].profiles[0]);
+  const BuiltBody many = build_body(body, "body");
+  EXPECT_EQ(one.mesh.nodes, many.mesh.nodes) << "to the last bit";
+  EXPECT_EQ(one.mesh.corners, many.mesh.corners);
 }
 
 TEST(Pillars, OfSidesStayInThem) {
@@ -153,10 +183,22 @@ TEST(Ladders, TakeTheShorterDiagonalOfLeaningWalls) {
 TEST(Pillars, ThatCrossAreRefusedWithPlace) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
-  body.faults[0].dip = 30 * kDegree;
+  body.faults[0].profiles = dipping(30);
   const std::vector<Problem> problems = MadePillars(body).problems();
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].pointer, "/faults/0");
+  EXPECT_THAT(problems[0].what, HasSubstr("pillars cross beside \"F\", worst at x "));
+}
+
+TEST(Pillars, DipsThatChangeTooFastAreRefusedWithPlace) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace = {{0, -2000}, {0, -100}, {0, 100}, {0, 2000}};
+  body.faults[0].profiles.clear();
+  for (const double lean : {0.5, 0.5, -0.5, -0.5})
+    body.faults[0].profiles.push_back(straight_profile(lean));
+  const std::vector<Problem> problems = MadePillars(body).problems();
+  ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].what, HasSubstr("pillars cross beside \"F\", worst at x "));
 }
 
@@ -172,7 +214,7 @@ TEST(Pillars, FaultsThatLeaveTheBoxOrCutEachOtherInDepthAreRefused) {
   body.faults = {dipping_fault(), dipping_fault()};
   body.faults[1].name = "G";
   body.faults[1].trace = {{800, -2000}, {800, 2000}};
-  body.faults[1].dips_to = DipSide::left;
+  body.faults[1].profiles = dipping(-60);
   problems.clear();
   check_faults_in_depth(body, meshed(body), problems);
   ASSERT_EQ(problems.size(), 1u);

@@ -17,10 +17,11 @@ struct Tally {
 
 /// Builds random bodies; each is cut with every facet found, or refused before it is meshed as the
 /// fourth fault, which heads for the second, cuts that in depth.
-Tally try_bodies(unsigned first, unsigned n) {
+Tally try_bodies(unsigned first, unsigned n, bool change_dips = false) {
   Tally tally;
   for (unsigned seed = first; seed < first + n; ++seed) {
-    const LayeredBody body = test::random_body(seed);
+    LayeredBody body = test::random_body(seed);
+    if (change_dips) test::change_dips(body, seed);
     try {
       const BuiltBody built = build_body(body, "body");
       const Mesh mesh = cut(built.mesh, "body");
@@ -43,6 +44,18 @@ TEST(RandomBodies, AreMeshedOrRefusedWithPlace) {
   const Tally tally = try_bodies(1, 20);
   EXPECT_GE(tally.n_meshed, 15) << "most";
   EXPECT_GE(tally.smallest_sicn, 0.05);
+}
+
+TEST(RandomBodies, WithDipsThatChangeAlongTracesAreMeshedOrRefusedWithPlace) {
+  const Tally tally = try_bodies(1, 5, true);
+  EXPECT_GE(tally.n_meshed, 3) << "most";
+  EXPECT_GE(tally.smallest_sicn, 0.05);
+}
+
+TEST(RandomBodies, SlowAHundredWithDipsThatChange) {
+  const Tally tally = try_bodies(1, 100, true);
+  EXPECT_GE(tally.n_meshed, 75) << "most";
+  EXPECT_GE(tally.smallest_sicn, 0.015) << "dips go down to 32 degrees here";
 }
 
 TEST(RandomBodies, SlowAHundred) {

@@ -103,8 +103,7 @@ class SidedRock {
       fault.name = "F" + std::to_string(body.faults.size());
       fault.trace = {one.from, one.to};
       if (one.starts_at_fault) fault.first_end = TraceEnd::at_fault;
-      fault.dips_to = one.towards > 0 ? DipSide::right : DipSide::left;
-      fault.dip = one.dip;
+      fault.profiles = {straight_profile((one.towards > 0 ? 1 : -1) / std::tan(one.dip))};
       fault.top = -1450;
       fault.bottom = -2800;
       body.faults.push_back(fault);

@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
+using test::dipping;
 using test::dipping_fault;
 using test::FaultedDome;
 using test::Ground;
@@ -103,7 +104,7 @@ double stepped_plane(double x, double y, bool is_right) {
 }
 
 /// Of the plane, on both sides of a fault along y that dips.
-PointDepth points_of_plane(const LayeredFault& fault, double spacing) {
+PointDepth points_of_plane(double dip, double spacing) {
   PointDepth points;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> jitter(-0.4, 0.4);
@@ -112,7 +113,7 @@ PointDepth points_of_plane(const LayeredFault& fault, double spacing) {
       for (const bool is_right : {false, true}) {
         const double x = gx + spacing * jitter(random), y = gy + spacing * jitter(random);
         const double z = stepped_plane(x, y, is_right);
-        const bool lies_right = x > (-2000 - z) / std::tan(fault.dip);
+        const bool lies_right = x > (-2000 - z) / std::tan(dip * kDegree);
         if (lies_right == is_right) points.points.emplace_back(x, y, z);
       }
   return points;
@@ -122,11 +123,11 @@ TEST(SidedHorizon, APlaneWithAStepIsExactOnBothSides) {
   LayeredBody body = reservoir_body();
   for (const double dip : {50., 70., 90.}) {
     LayeredFault fault = dipping_fault();
-    fault.dip = dip * kDegree;
+    fault.profiles = dipping(dip);
     body.faults = {fault};
     const Ground ground(body);
     std::vector<Problem> problems;
-    const PointSurface surface(points_of_plane(fault, 250).points);
+    const PointSurface surface(points_of_plane(dip, 250).points);
     const SidedHorizon sided = ground.horizon(surface, problems);
     ASSERT_TRUE(problems.empty());
     const std::vector<int> side = sides_of_places(ground, sided);
@@ -143,7 +144,7 @@ TEST(SidedHorizon, AlongATraceThatBendsBothSidesAreExact) {
   LayeredBody body = reservoir_body();
   body.cells.at_faults = 60;
   LayeredFault fault = dipping_fault();
-  fault.dip = 90 * kDegree;
+  fault.profiles.clear();
   fault.trace.clear();
   const auto bend = [](double y) { return 250 * std::cos(y / 700); };
   for (int k = -20; k <= 20; ++k) fault.trace.emplace_back(bend(100. * k), 100. * k);
@@ -199,7 +200,7 @@ TEST(SidedHorizon, FarFromFaultsIsWhatPointsWithoutFaultsAre) {
 TEST(SidedHorizon, ASideWithoutPointsIsRefusedWithItsPlace) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault(), dipping_fault()};
-  body.faults[0].dip = body.faults[1].dip = 90 * kDegree;
+  for (LayeredFault& fault : body.faults) fault.profiles.clear();
   body.faults[1].name = "G";
   body.faults[1].trace = {{1500, -2000}, {1500, 2000}};
   PointDepth points;
@@ -217,11 +218,11 @@ TEST(SidedHorizon, ASideWithoutPointsIsRefusedWithItsPlace) {
 TEST(SidedHorizon, AGivenThrowIsAddedToThatOfPoints) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault(), dipping_fault()};
-  body.faults[0].dip = body.faults[1].dip = 90 * kDegree;
+  for (LayeredFault& fault : body.faults) fault.profiles.clear();
   body.faults[1].name = "G";
   body.faults[1].trace = {{1500, -2000}, {1500, 2000}};
   body.faults[1].moved = FaultThrow{50, 0.5, 250};
-  body.horizons = {{"top", points_of_plane(body.faults[0], 250)}, {"bottom", ConstantDepth{-2800}}};
+  body.horizons = {{"top", points_of_plane(90, 250)}, {"bottom", ConstantDepth{-2800}}};
   const std::vector<FoundThrow> throws = build_body(body, "body").throws;
   ASSERT_EQ(throws.size(), 4u);
   EXPECT_NEAR(throws[0].middle, 80, 0.5);
@@ -232,8 +233,8 @@ TEST(SidedHorizon, AGivenThrowIsAddedToThatOfPoints) {
 TEST(SidedHorizon, PointsOnTheTraceSayNothing) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
-  body.faults[0].dip = 90 * kDegree;
-  PointDepth points = points_of_plane(body.faults[0], 250);
+  body.faults[0].profiles.clear();
+  PointDepth points = points_of_plane(90, 250);
   for (double y = -1900; y < 2000; y += 100) points.points.emplace_back(0.01, y, -1000);
   const Ground ground(body);
   std::vector<Problem> problems;
@@ -248,7 +249,7 @@ TEST(SidedHorizon, AboveTheTopOfAFaultThereIsNoStep) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};
   body.faults[0].top = -2050;
-  const PointDepth points = points_of_plane(body.faults[0], 250);
+  const PointDepth points = points_of_plane(60, 250);
   const Ground ground(body);
   std::vector<Problem> problems;
   const PointSurface surface(points.points);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -7,6 +8,7 @@
 #include <sstream>
 
 #include "campaign/pillars/fault_map.h"
+#include "simulator/reading/fault_surface.h"
 
 namespace faultsweep {
 namespace {
@@ -174,6 +176,13 @@ TEST(FaultMap, TsurfHasTrianglesBetweenThePillarsOfAFault) {
   EXPECT_EQ(vertices[2][4], -99999);
   EXPECT_EQ(triangles, (std::vector<std::vector<int>>{{1, 3, 4}, {1, 4, 2}}));
   EXPECT_NE(text.find("ZPOSITIVE Depth"), std::string::npos);
+  // A scene of horizons takes it as the surface of a fault.
+  const auto read = faultsim::parse_fault_surface(text, "map.ts", "F");
+  ASSERT_EQ(read.points.size(), 4u);
+  EXPECT_EQ(read.points[0], Eigen::Vector3d(100, 0, -2000));
+  EXPECT_LT((read.points[3] - Eigen::Vector3d(400, 50, -2310)).norm(), 1e-9);
+  ASSERT_EQ(read.triangles.size(), 2u);
+  EXPECT_EQ(read.triangles[1], (std::array<int, 3>{0, 3, 1}));
   FaultMap alone = small_map();
   for (auto& place : alone.places) place.fault.clear();
   EXPECT_EQ(fault_map_to_tsurf(alone), "");

@@ -131,6 +131,165 @@ TEST_F(HorizonsScene, AFaultDipsToTheRightOfItsTrace) {
   }
 }
 
+TEST_F(HorizonsScene, ADipPerPointOfTheTraceIsLinearBetween) {
+  const Changes three = {
+      {"/faults/0/trace", R"([["0 m", "-2 km"], ["0 m", "0 m"], ["0 m", "2 km"]])"}};
+  const auto dips = [&](const std::string& list) {
+    Changes changes = three;
+    changes.emplace_back("/faults/0/dip_from_vertical", list);
+    return read(changes);
+  };
+  EXPECT_EQ(dips(R"(["20 deg", "20 deg", "20 deg"])").box, dips("20 deg").box);
+  const Scene scene = dips(R"(["10 deg", "-20 deg", "40 deg"])");
+  const NamedMesh& mesh = *scene.box.mesh->content;
+  const double lean[] = {std::tan(10 * kDegree), std::tan(-20 * kDegree), std::tan(40 * kDegree)};
+  int n = 0;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (mesh.facet_groups[mesh.facet_group[f]] != "F1") continue;
+    for (int v = 0; v < 3; ++v) {
+      const Eigen::Vector3d& at = mesh.nodes[mesh.facets[f][v]];
+      const double part = std::abs(at.y()) / 2000;
+      const double there = (1 - part) * lean[1] + part * lean[at.y() < 0 ? 0 : 2];
+      EXPECT_NEAR(at.x(), there * (-2000 - at.z()), 1e-9) << "at y " << at.y() << ", z " << at.z();
+      ++n;
+    }
+  }
+  EXPECT_GT(n, 100);
+  EXPECT_EQ(scene.faults[0].dip_from_vertical, 0) << "the mesh says it";
+}
+
+TEST_F(HorizonsScene, ListsOfDipsAreHeldAgainstTheTrace) {
+  EXPECT_THAT(said({{"/faults/0/dip_from_vertical", R"(["20 deg", "30 deg", "20 deg"])"}}),
+              HasSubstr("/faults/0/dip_from_vertical: has 3 dips for 2 points of the trace; write "
+                        "one for each point, or one for all"));
+  EXPECT_THAT(said({{"/faults/0/dip_from_vertical", R"(["20 deg", "87 deg"])"}}),
+              HasSubstr("/faults/0/dip_from_vertical/1: \"F1\" dips by 3 degrees"));
+  EXPECT_THAT(said({{"/faults/0/dip_from_vertical", R"(["20 deg", "100 deg"])"}}),
+              HasSubstr("/faults/0/dip_from_vertical/1: \"100 deg\" is above 90 deg"));
+  const std::string listric =
+      R"([{"depth": "2 km", "shift": "0 m"}, {"depth": "2 km", "shift": "9 m"}])";
+  JsonDocument curved = document({{"/faults/0/listric", listric}});
+  EXPECT_THAT(
+      said({{"/faults/0/listric", listric}}),
+      HasSubstr(
+          "/faults/0/dip_from_vertical: the fault has a listric profile that says how it dips"));
+  curved.value["faults"][0].erase("dip_from_vertical");
+  try {
+    read_scene(curved);
+    ADD_FAILURE() << "two points of the profile are at one depth";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("/faults/0/listric: a profile of \"F1\" is no line"));
+  }
+}
+
+/// Corners of the facets of a fault.
+std::vector<std::array<Eigen::Vector3d, 3>> facets_of(const Scene& scene, const std::string& name) {
+  const NamedMesh& mesh = *scene.box.mesh->content;
+  std::vector<std::array<Eigen::Vector3d, 3>> facets;
+  for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
+    if (mesh.facet_groups[mesh.facet_group[f]] != name) continue;
+    facets.push_back({mesh.nodes[mesh.facets[f][0]], mesh.nodes[mesh.facets[f][1]],
+                      mesh.nodes[mesh.facets[f][2]]});
+  }
+  return facets;
+}
+
+std::string surface_text(const std::vector<std::array<Eigen::Vector3d, 3>>& facets) {
+  std::string points, triangles;
+  int n = 0;
+  for (const auto& facet : facets) {
+    for (const Eigen::Vector3d& at : facet)
+      points += concat("VRTX ", ++n, " ", at.x(), " ", at.y(), " ", -at.z(), "\n");
+    triangles += concat("TRGL ", n - 2, " ", n - 1, " ", n, "\n");
+  }
+  return "GOCAD TSurf 1\nHEADER { name:F1 }\nZPOSITIVE Depth\nTFACE\n" + points + triangles +
+         "END\n";
+}
+
+class SurfaceScene : public HorizonsScene {
+ protected:
+  /// The scene with the surface F1.ts in place of the keys that say where F1 is.
+  JsonDocument of_surface(const std::string& text) const {
+    std::ofstream(scratch_.path() / "F1.ts") << text;
+    JsonDocument one = document();
+    for (const char* key : {"trace", "dip_from_vertical", "top", "bottom"})
+      one.value["faults"][0].erase(key);
+    one.value["faults"][0]["surface"] = "F1.ts";
+    return one;
+  }
+  std::string refusal(const JsonDocument& document) const {
+    try {
+      read_scene(document);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+  const std::string leaning_ = surface_text(
+      facets_of(read({{"/faults/0/dip_from_vertical", R"(["10 deg", "35 deg"])"}}), "F1"));
+};
+
+TEST_F(SurfaceScene, AFaultThatWasWrittenIsReadAsItWas) {
+  const auto before =
+      facets_of(read({{"/faults/0/dip_from_vertical", R"(["10 deg", "35 deg"])"}}), "F1");
+  const Scene scene = read_scene(of_surface(leaning_));
+  const auto after = facets_of(scene, "F1");
+  ASSERT_EQ(after.size(), before.size());
+  // Where two diagonals are as good rounding decides, so points are compared, not triangles.
+  for (const auto& facet : after)
+    for (const Eigen::Vector3d& at : facet) {
+      double nearest = 1e300;
+      for (const auto& other : before)
+        for (const Eigen::Vector3d& there : other) nearest = std::min(nearest, (at - there).norm());
+      EXPECT_LT(nearest, 1e-6) << at.transpose();
+    }
+}
+
+TEST_F(SurfaceScene, ItsFileIsPartOfTheBodyAndTravels) {
+  JsonDocument travelled = of_surface(leaning_);
+  const std::string text = canonical_parts(read_scene(travelled)).geometry;
+  const JsonDocument other = of_surface(surface_text(
+      facets_of(read({{"/faults/0/dip_from_vertical", R"(["10 deg", "30 deg"])"}}), "F1")));
+  EXPECT_NE(canonical_parts(read_scene(other)).geometry, text) << "by what is in the file";
+  of_surface(leaning_);
+  embed_tables(travelled);
+  std::filesystem::remove(scratch_.path() / "F1.ts");
+  EXPECT_EQ(canonical_parts(read_scene(travelled)).geometry, text);
+}
+
+TEST_F(SurfaceScene, SticksAreASurface) {
+  const JsonDocument sticks = of_surface(
+      "stick, x [m], y [m], depth [m]\n1, 100, -2000, 1500\n1, -200, -2000, 2600\n"
+      "2, 0, 0, 1500\n2, 0, 0, 2600\n3, 100, 2000, 1500\n3, -200, 2000, 2600\n");
+  const Scene scene = read_scene(sticks);
+  for (const auto& facet : facets_of(scene, "F1"))
+    for (const Eigen::Vector3d& at : facet) {
+      const double along = std::abs(at.y()) / 2000, down = -1500 - at.z();
+      EXPECT_NEAR(at.x(), along * (100 - 300 * down / 1100), 1) << at.transpose();
+    }
+}
+
+TEST_F(SurfaceScene, WhatIsWrongIsSaidAtItsPlace) {
+  EXPECT_THAT(refusal(of_surface("GOCAD TSurf 1\nTRGL 1 2 3\n")),
+              HasSubstr("/faults/0/surface: F1.ts line 2: there is no point 1"));
+  JsonDocument two = of_surface(leaning_);
+  two.value["faults"][0]["dip_from_vertical"] = "10 deg";
+  EXPECT_THAT(refusal(two), HasSubstr("/faults/0/dip_from_vertical: the fault has a surface that "
+                                      "says how it dips"));
+  JsonDocument deeper = of_surface(leaning_);
+  deeper.value["geometry"]["trace_depth"] = "3 km";
+  EXPECT_THAT(refusal(deeper), HasSubstr("/faults/0/surface: the surface of \"F1\" reaches from "));
+  JsonDocument shallow = of_surface(leaning_);
+  shallow.value["geometry"]["layers"][2]["top"] = "2600 m";
+  EXPECT_THAT(refusal(shallow),
+              HasSubstr("/faults/0/surface: the surface of \"F1\" ends within "
+                        "the reservoir: its base lies above the top of base at "));
+  shallow.value["faults"][0]["bottom"] = "2900 m";
+  EXPECT_EQ(refusal(shallow), "");
+  std::filesystem::remove(scratch_.path() / "F1.ts");
+  EXPECT_THAT(refusal(two), HasSubstr("/faults/0/surface"));
+}
+
 TEST_F(HorizonsScene, SidesAndBaseAreHeldUnlessItSaysMore) {
   const Scene scene = read();
   ASSERT_EQ(scene.box.boundary.size(), 1u);
@@ -156,6 +315,15 @@ TEST_F(HorizonsScene, ATableIsAHorizon) {
   EXPECT_THAT(said(table), HasSubstr("/geometry/layers/1/top/csv: top.csv line 1: column "
                                      "\"thickness\" says nothing of a horizon; head the table x "
                                      "[m], y [m], depth [m]"));
+}
+
+/// Growth is a factor from one cell to the next: 1 keeps their size.
+TEST_F(HorizonsScene, CellsGrowByAFactor) {
+  const auto n_cells = [&](const Changes& changes) {
+    return static_cast<double>(read(changes).box.mesh->content->cell_group.size());
+  };
+  const double alike = n_cells({{"/mesh/largest", "200 m"}});
+  EXPECT_NEAR(n_cells({{"/mesh/growth", "1.001"}}), alike, 0.05 * alike);
 }
 
 TEST_F(HorizonsScene, EveryProblemOfKeysIsSaidAtOnce) {
@@ -228,6 +396,7 @@ TEST_F(HorizonsScene, AChangeOfTheBaseIsReadLikeTheWhole) {
   for (const auto& [pointer, value] : std::vector<std::pair<std::string, nlohmann::json>>{
            {"/faults/0/throw", "60 m"},
            {"/faults/0/throw", "70 m"},
+           {"/faults/0/dip_from_vertical", {"15 deg", "25 deg"}},
            {"/geometry/depth", "4100 m"},
            {"/mesh/strike", "250 m"},
            {"/faults/0/friction/friction_angle", "25 deg"},
@@ -242,6 +411,25 @@ TEST_F(HorizonsScene, AChangeOfTheBaseIsReadLikeTheWhole) {
     EXPECT_EQ(changed.scene.box, expected.box) << pointer;
     EXPECT_EQ(changed.scene.faults, expected.faults) << pointer;
   }
+}
+
+TEST_F(HorizonsScene, AnElementOfAListOfDipsIsChangedAlone) {
+  const JsonDocument base = document({{"/faults/0/dip_from_vertical", R"(["15 deg", "25 deg"])"}});
+  ChangedScene changed;
+  for (const char* dip : {"18 deg", "20 deg"}) {
+    std::vector<Problem> problems;
+    change_scene(base, {{"/faults/0/dip_from_vertical/1", dip}}, Relations::checked, changed,
+                 problems);
+    ASSERT_TRUE(problems.empty());
+    JsonDocument whole = base;
+    put_value(whole.value, "/faults/0/dip_from_vertical/1", dip);
+    EXPECT_EQ(changed.scene.box, read_scene(whole).box) << dip;
+  }
+  EXPECT_EQ(resolve_parameter(base, "dip_F1"), "/faults/0/dip_from_vertical");
+  std::vector<std::string> new_family;
+  for (const ParameterInfo& row : parameters(base))
+    if (row.new_family) new_family.push_back(row.pointer);
+  EXPECT_THAT(new_family, testing::Contains("/faults/0/dip_from_vertical/1"));
 }
 
 TEST_F(HorizonsScene, ItsKeysAreParameters) {

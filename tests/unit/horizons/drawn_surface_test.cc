@@ -1,0 +1,190 @@
+#include "simulator/horizons/drawn_surface.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulator/horizons/fault_shape.h"
+#include "tests/unit/horizons/bodies.h"
+
+namespace faultsim::horizons {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using testing::HasSubstr;
+
+constexpr double kTraceZ = -2000, kCellSize = 100;
+
+/// A grid of triangles: points at(u, z) with u along the fault from 0 to 1.
+template <typename At>
+DrawnSurface triangulated(double low, double high, const At& at) {
+  constexpr int kAlong = 12, kDown = 9;
+  DrawnSurface surface;
+  for (int j = 0; j <= kDown; ++j)
+    for (int i = 0; i <= kAlong; ++i) {
+      const double z = high + (low - high) * j / kDown;
+      const Vector2d place = at(static_cast<double>(i) / kAlong, z);
+      surface.points.emplace_back(place.x(), place.y(), z);
+    }
+  for (int j = 0; j < kDown; ++j)
+    for (int i = 0; i < kAlong; ++i) {
+      const int a = j * (kAlong + 1) + i, b = a + kAlong + 1;
+      surface.triangles.push_back({a, a + 1, b});
+      surface.triangles.push_back({b, a + 1, b + 1});
+    }
+  return surface;
+}
+
+/// The same as sticks, from top to bottom.
+DrawnSurface as_sticks(const DrawnSurface& surface, int n_along) {
+  DrawnSurface sticks{surface.points, {}, {}};
+  for (int i = 0; i <= n_along; ++i) {
+    std::vector<int>& stick = sticks.sticks.emplace_back();
+    for (std::size_t p = static_cast<std::size_t>(i); p < surface.points.size();
+         p += static_cast<std::size_t>(n_along) + 1)
+      stick.push_back(static_cast<int>(p));
+  }
+  return sticks;
+}
+
+/// A plane that leans by 0.5 to larger x, along y from -1000 to 1000.
+Vector2d on_plane(double u, double z) { return {0.5 * (kTraceZ - z), -1000 + 2000 * u}; }
+
+SurfaceLines drawn(const DrawnSurface& surface, const std::vector<Vector2d>& trace = {}) {
+  std::vector<Problem> problems;
+  SurfaceLines lines = lines_of(surface, trace, kTraceZ, kCellSize, "/at", "F", problems);
+  for (const Problem& one : problems) ADD_FAILURE() << one.what;
+  return lines;
+}
+
+std::string refused(const DrawnSurface& surface, const std::vector<Vector2d>& trace = {}) {
+  std::vector<Problem> problems;
+  lines_of(surface, trace, kTraceZ, kCellSize, "/at", "F", problems);
+  std::string said;
+  for (const Problem& one : problems) said += one.pointer + ": " + one.what + "\n";
+  return said;
+}
+
+/// What FaultShape makes of it, at a point of its trace.
+double shift(const SurfaceLines& lines, std::size_t point, double z) {
+  LayeredBody body;
+  body.base = -5000;
+  body.trace_depth = kTraceZ;
+  LayeredFault fault;
+  fault.trace = lines.trace;
+  fault.profiles = lines.profiles;
+  fault.top = lines.top;
+  fault.bottom = lines.bottom;
+  return FaultShape(body, fault, lines.trace).shift_at(point, z);
+}
+
+TEST(DrawnSurface, OfAPlaneIsAPlane) {
+  const DrawnSurface plane = triangulated(-2900, -1300, on_plane);
+  for (const bool by_sticks : {false, true}) {
+    const SurfaceLines lines = drawn(by_sticks ? as_sticks(plane, 12) : plane);
+    ASSERT_EQ(lines.trace.size(), 21u) << "a cell apart";
+    EXPECT_LT((lines.trace.front() - Vector2d(0, -1000)).norm(), 1e-9) << "dips to its right";
+    EXPECT_LT((lines.trace.back() - Vector2d(0, 1000)).norm(), 1e-9);
+    EXPECT_EQ(lines.top, -1300);
+    EXPECT_EQ(lines.bottom, -2900);
+    for (const std::size_t k : {0u, 7u, 20u})
+      for (const double z : {-1300., -1777., -2000., -2899., -2900.})
+        EXPECT_NEAR(shift(lines, k, z), 0.5 * (kTraceZ - z), 1e-7) << k << " at " << z;
+  }
+}
+
+/// Curved along and down, with a lean that changes: between points of level lines and of depths
+/// chords are within a few cm of it.
+TEST(DrawnSurface, OfACurvedOneIsThereWhereTheNormalMeetsIt) {
+  const auto at = [](double u, double z) {
+    const double down = kTraceZ - z;
+    return Vector2d(60 * std::sin(3 * u) - (0.3 + 0.3 * u) * down - 1e-4 * down * down,
+                    -1000 + 2000 * u);
+  };
+  const DrawnSurface curved = triangulated(-2800, -1500, at);
+  for (const bool by_sticks : {false, true}) {
+    const SurfaceLines lines = drawn(by_sticks ? as_sticks(curved, 12) : curved);
+    EXPECT_GT(lines.trace.front().y(), lines.trace.back().y()) << "dips to the west, its right";
+    LayeredBody body;
+    LayeredFault fault;
+    fault.trace = lines.trace;
+    const FaultShape shape(body, fault, lines.trace);
+    for (std::size_t k = 2; k + 2 < lines.trace.size(); ++k)
+      for (const double z : {-1600., -2100., -2700.}) {
+        const Vector2d there = lines.trace[k] + shape.across(k) * shift(lines, k, z);
+        EXPECT_NEAR(there.x(), at((there.y() + 1000) / 2000, z).x(), 2.5) << k << " at " << z;
+      }
+  }
+}
+
+TEST(DrawnSurface, AVerticalOneRunsToTheNorth) {
+  for (const double way : {-1., 1.}) {
+    const SurfaceLines lines = drawn(triangulated(
+        -2900, -1300, [&](double u, double) { return Vector2d(300 * u, way * (900 * u - 450)); }));
+    EXPECT_LT(lines.trace.front().y(), lines.trace.back().y()) << way;
+  }
+}
+
+TEST(DrawnSurface, ATraceOfOnesOwnTakesHowItGoesDown) {
+  const DrawnSurface plane = triangulated(-2900, -1300, on_plane);
+  // A little beside, and the other way round.
+  const SurfaceLines lines = drawn(plane, {{20, 900}, {20, -900}});
+  ASSERT_EQ(lines.trace.size(), 19u) << "with points between";
+  EXPECT_EQ(lines.trace.front(), Vector2d(20, 900));
+  EXPECT_NEAR(shift(lines, 5, -2800), -400, 1e-6) << "to the left";
+}
+
+TEST(DrawnSurface, BeyondItsSidesItGoesOnAsThere) {
+  // 500 m long at its base, 2,000 m at its top.
+  const DrawnSurface funnel = triangulated(-2900, -1300, [](double u, double z) {
+    const double half = 250 + 750 * (z + 2900) / 1600;
+    return Vector2d(0.5 * (kTraceZ - z), half * (2 * u - 1));
+  });
+  const SurfaceLines lines = drawn(funnel);
+  EXPECT_NEAR(lines.trace.front().y(), -671.875, 1e-6);
+  EXPECT_NEAR(shift(lines, 0, -2900), 450, 1e-6);
+}
+
+TEST(DrawnSurface, WhatIsNoFaultIsRefusedWithItsPlace) {
+  EXPECT_THAT(refused(triangulated(-1900, -1300, on_plane)),
+              HasSubstr("/at: the surface of \"F\" reaches from 1300 to 1900 m depth and is not "
+                        "cut by the depth of traces, 2000 m"));
+  EXPECT_THAT(refused(triangulated(-2040, -1990, on_plane)), HasSubstr("is less high than a cell"));
+  const auto narrow = [](double u, double z) { return Vector2d(on_plane(u / 50, z)); };
+  EXPECT_THAT(refused(triangulated(-2900, -1300, narrow)), HasSubstr("is less than a cell long"));
+  // Down to -2,400 m and up again beside, in one piece.
+  DrawnSurface fold = triangulated(
+      -2900, -1300, [](double u, double z) { return Vector2d(-1300 - z, -1000 + 2000 * u); });
+  for (Vector3d& at : fold.points) at.z() = at.x() < 1000 ? -1300 - at.x() : -3300 + at.x();
+  EXPECT_THAT(refused(fold, {{700, -900}, {700, 900}}),
+              HasSubstr("lies in two places at a depth of "));
+  DrawnSurface two = triangulated(-2900, -1300, on_plane);
+  std::erase_if(two.triangles,
+                [&](const std::array<int, 3>& t) { return std::abs(two.points[t[0]].y()) < 100; });
+  EXPECT_THAT(refused(two), HasSubstr("is cut in 2 lines at the depth of traces, 2000 m"));
+  // A branch to the east from the middle.
+  DrawnSurface branched = triangulated(-2900, -1300, on_plane);
+  const auto n_first = static_cast<int>(branched.points.size());
+  for (int j = 0; j < 10; ++j)
+    branched.points.push_back(branched.points[13 * j + 6] + Vector3d(500, 0, 0));
+  for (int j = 0; j < 9; ++j) {
+    branched.triangles.push_back({13 * j + 6, n_first + j, 13 * j + 19});
+    branched.triangles.push_back({13 * j + 19, n_first + j, n_first + j + 1});
+  }
+  EXPECT_THAT(refused(branched), HasSubstr("is cut in 3 lines at the depth of traces"));
+  const auto around = [](double u, double) {
+    return Vector2d(800 * std::cos(2 * std::numbers::pi * u),
+                    800 * std::sin(2 * std::numbers::pi * u));
+  };
+  DrawnSurface ring = triangulated(-2900, -1300, around);
+  for (std::array<int, 3>& t : ring.triangles)
+    for (int& v : t) v = v % 13 == 12 ? v - 12 : v;
+  EXPECT_THAT(refused(ring), HasSubstr("is a ring at the depth of traces"));
+  EXPECT_THAT(refused(triangulated(-2900, -1300, on_plane), {{9000, -900}, {9000, 900}}),
+              HasSubstr("is nowhere near the trace that is given"));
+}
+
+}  // namespace
+}  // namespace faultsim::horizons
