@@ -9,6 +9,7 @@
 #include "simulator/mesh/shear.h"
 #include "simulator/mesh/structured_grid.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 #include "simulator/scene/offset_intervals.h"
 
 namespace faultsim {
@@ -95,8 +96,12 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
   const double half = 0.5 * spec.length;
   LineBuilder builder(spec.half_domain ? 0 : -half, half, spec.sizes.growth, spec.sizes.largest);
   // A line at y = 0 in the full domain too, so that the half domain is half of its grid.
-  for (const double y : {-0.5 * spec.block_length, 0.0, 0.5 * spec.block_length})
-    builder.add_line(y);
+  builder.add_line(0);
+  for (const Block& block : spec.blocks) {
+    const StrikeInterval ends = block_ends(spec, block);
+    builder.add_line(ends.from);
+    builder.add_line(ends.to);
+  }
   builder.add_window(-0.5 * spec.fault_length, 0.5 * spec.fault_length, spec.sizes.strike);
   return builder.build();
 }
@@ -250,7 +255,7 @@ CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
       spec.blocks, [&](const auto& one) { return x > one.from && x < one.to; });
   const size_t reservoir = reservoir_index(spec);
   const bool beside =
-      block == spec.blocks.end() || (!spec.plane_strain && std::abs(y) > 0.5 * spec.block_length);
+      block == spec.blocks.end() || (!spec.plane_strain && !block_ends(spec, *block).holds(y));
   if (beside)
     return {layer == reservoir ? spec.sideburden_material : spec.layer_materials[layer], -1};
   const DepthInterval range = reservoir_range(spec, *block), unmoved = reservoir_range(spec);

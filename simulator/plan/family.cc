@@ -55,10 +55,13 @@ auto lists(const List& all) {
 
 void append_block(std::string& text, const Block& block) {
   append_members(text, block);
-  if (block.thickness) {
-    text += ",{\"thickness\":";
-    append(text, *block.thickness);
-    text += '}';
+  if (block.thickness || block.y_from || block.y_to) {
+    text += ',';
+    ObjectText own(text);
+    if (block.thickness) own.add("thickness", *block.thickness);
+    if (block.y_from) own.add("y_from", *block.y_from);
+    if (block.y_to) own.add("y_to", *block.y_to);
+    own.close();
   }
   text += ']';
 }
@@ -76,7 +79,7 @@ void add_field(const FieldMeshSpec& spec, ObjectText& family) {
   family.add("layer_materials", spec.layer_materials);
   family.add("reservoir_layer", static_cast<int>(reservoir_index(spec)));
   family.add("sideburden", spec.sideburden_material);
-  family.add("block_length", spec.block_length);
+  if (spec.uses_block_length()) family.add("block_length", spec.block_length);
   family.add("fault", std::array{spec.fault_length, spec.fault_overshoot, spec.pivot_depth});
   family.add("fault_dips", spec.fault_dips);
   family.add("half", spec.half_domain);

@@ -7,6 +7,7 @@
 
 #include "simulator/plan/body_mesh.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim {
 namespace {
@@ -112,10 +113,10 @@ double reservoir_cells(const Scene& scene, const GridLines& lines, bool plane_st
   };
   double n = 0;
   if (scene.geometry_kind == GeometryKind::field) {
-    const double half = scene.field.block_length / 2;
     for (const Block& block : scene.field.blocks) {
       const DepthInterval range = reservoir_range(scene.field, block);
-      n += box(block.from, block.to, -half, half, -range.bottom, -range.top);
+      const StrikeInterval ends = block_ends(scene.field, block);
+      n += box(block.from, block.to, ends.from, ends.to, -range.bottom, -range.top);
     }
     return n;
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/initial_state/load_times.h"
+#include "simulator/reading/field_ends.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/field_depths.h"
 
@@ -45,6 +46,7 @@ void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
                          metres(-0.5 * field.width) + " to " + metres(0.5 * field.width),
                      "make \"width\" larger");
     }
+    check_field_ends(reader, element(at + "blocks", i) + "/", field);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "simulator/flow/flow_mapping.h"
+#include "simulator/scene/field_extents.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -79,8 +80,8 @@ CellCorners block_corners(const Scene& scene, std::size_t block) {
   const auto x_of = [&](std::size_t fault) {
     return std::array{fault_x(scene, fault, depths.top), fault_x(scene, fault, depths.bottom)};
   };
-  return between_sides(x_of(block), x_of(block + 1), depths.top, depths.bottom,
-                       0.5 * scene.field.block_length);
+  return within_ends(between_sides(x_of(block), x_of(block + 1), depths.top, depths.bottom, 1),
+                     block_ends(scene.field, scene.field.blocks[block]));
 }
 
 double fault_x(const Scene& scene, std::size_t fault, double depth) {
