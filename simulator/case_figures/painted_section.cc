@@ -87,14 +87,14 @@ void hold_all(const SectionPressures& pressures, const CaseResult& result, doubl
 
 std::string metres(double length) { return plain_number(length, 4) + " m"; }
 
-/// The blocks that end along the faults before the section: "; B1 and B3 end before it"; "" where
-/// none does.
+/// "not painted, as they end along the faults before the section: east"; "" where none does.
 std::string ended_words(const Scene& scene, const SectionPressures& pressures) {
   std::vector<std::string> names;
   for (std::size_t b = 0; b < pressures.n_blocks(); ++b)
     if (!pressures.reaches(b)) names.push_back(scene.field.blocks[b].name);
   if (names.empty()) return "";
-  return concat("; not painted, as it ends along the faults before that: ", joined(names, ", "));
+  return concat("not painted, as ", names.size() == 1 ? "it ends" : "they end",
+                " along the faults before the section: ", joined(names, ", "));
 }
 
 std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace& place,
@@ -108,10 +108,11 @@ std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace
   const double since = load.field->date[static_cast<std::size_t>(load.reference)];
   std::vector<std::string> words = {
       concat("in reservoirs: change of the flow result's ", quantity.name(), " since ",
-             date_text(since), " (negative: it fell), at y = ", metres(place.y), place.why,
-             ended_words(picture.scene, pressures)),
+             date_text(since), " (negative: it fell), at y = ", metres(place.y), place.why),
       concat("means over pieces of at most ", plain_number(pressures.width()), " m × ",
              plain_number(pressures.height()), " m; ", same_scale_words(picture, has_original))};
+  if (const std::string ended = ended_words(picture.scene, pressures); !ended.empty())
+    words.push_back(ended);
   if (pressures.n_covered() < pressures.n_all()) {
     words.push_back(
         concat("hatched: pieces of which less than half lies in the flow grid; beyond it ",

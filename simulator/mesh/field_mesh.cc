@@ -38,15 +38,15 @@ void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   for (size_t i = 0; i < spec.blocks.size(); ++i) {
     const std::string pointer = concat("/geometry/blocks/", i, "/offset");
     const DepthInterval range = reservoir_range(spec, spec.blocks[i]);
-    if (!(range.top - spec.fault_overshoot > 0))
+    const double overshoot = std::max(overshoot_of(spec, i), overshoot_of(spec, i + 1));
+    if (!(range.top - overshoot > 0))
       problems.push_back({pointer, 0, "puts the top of a fault at or above the surface",
                           "use a larger offset or a smaller fault_overshoot"});
-    if (!(range.bottom + spec.fault_overshoot < spec.depth))
-      problems.push_back(
-          {pointer, 0,
-           concat("puts the foot of a fault at ", range.bottom + spec.fault_overshoot,
-                  " m, at or below the base of the model"),
-           "use a smaller offset or fault_overshoot, or a deeper model"});
+    if (!(range.bottom + overshoot < spec.depth))
+      problems.push_back({pointer, 0,
+                          concat("puts the foot of a fault at ", range.bottom + overshoot,
+                                 " m, at or below the base of the model"),
+                          "use a smaller offset or fault_overshoot, or a deeper model"});
   }
   for (size_t i = 0; i < spec.fault_dips.size(); ++i)
     if (!(std::abs(spec.fault_dips[i]) <= kMaxDip))
@@ -102,7 +102,10 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
     builder.add_line(ends.from);
     builder.add_line(ends.to);
   }
-  builder.add_window(-0.5 * spec.fault_length, 0.5 * spec.fault_length, spec.sizes.strike);
+  for (size_t i = 0; i <= spec.blocks.size(); ++i) {
+    const StrikeInterval ends = fault_ends(spec, i);
+    builder.add_window(ends.from, ends.to, spec.sizes.strike);
+  }
   return builder.build();
 }
 
@@ -306,12 +309,14 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   fault.plane = static_cast<size_t>(
       std::lower_bound(x.begin(), x.end(), fault_x(spec, i) - kEdgeTolerance) - x.begin());
   const DepthInterval range = fault_range(spec, i);
-  // As long as the model: it has no ends, the model's ends cut it.
-  const bool through = spec.fault_length >= spec.length - kEdgeTolerance;
+  const StrikeInterval ends = fault_ends(spec, i);
+  // An end at that of the model is none: the model's end cuts the fault.
+  const bool south = ends.from > -0.5 * (spec.length - kEdgeTolerance),
+             north = ends.to < 0.5 * (spec.length - kEdgeTolerance);
   for (const double y : grid.lines[1])
     for (const double z : grid.lines[2]) {
-      const bool in_length =
-          spec.plane_strain || through || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
+      const bool in_length = spec.plane_strain || ((!south || y > ends.from + kEdgeTolerance) &&
+                                                   (!north || y < ends.to - kEdgeTolerance));
       const bool in_depth = -z > range.top + kEdgeTolerance && -z < range.bottom - kEdgeTolerance;
       fault.split.push_back(in_length && in_depth ? 1 : 0);
     }

@@ -66,6 +66,14 @@ void append_block(std::string& text, const Block& block) {
   text += ']';
 }
 
+void append_extent(std::string& text, const FaultExtent& fault) {
+  ObjectText own(text);
+  if (fault.y_from) own.add("y_from", *fault.y_from);
+  if (fault.y_to) own.add("y_to", *fault.y_to);
+  if (fault.overshoot) own.add("overshoot", *fault.overshoot);
+  own.close();
+}
+
 std::vector<double> tops(const std::vector<Layer>& layers, double sign) {
   std::vector<double> depths;
   for (const Layer& layer : layers) depths.push_back(sign * layer.top_depth);
@@ -80,11 +88,16 @@ void add_field(const FieldMeshSpec& spec, ObjectText& family) {
   family.add("reservoir_layer", static_cast<int>(reservoir_index(spec)));
   family.add("sideburden", spec.sideburden_material);
   if (spec.uses_block_length()) family.add("block_length", spec.block_length);
-  family.add("fault", std::array{spec.fault_length, spec.fault_overshoot, spec.pivot_depth});
+  const double fault_length = spec.uses_fault_length() ? spec.fault_length : 0;
+  family.add("fault", std::array{fault_length, spec.fault_overshoot, spec.pivot_depth});
+  if (!spec.fault_extents.empty()) {
+    family.add("fault_extents",
+               [&](std::string& to) { append_list(to, spec.fault_extents, append_extent); });
+  }
   family.add("fault_dips", spec.fault_dips);
   family.add("half", spec.half_domain);
   family.add("blocks", [&](std::string& to) { append_list(to, spec.blocks, append_block); });
-  if (!spec.plane_strain && spec.fault_length >= spec.length) family.add("fault_ends", "none");
+  if (!spec.plane_strain && fault_length >= spec.length) family.add("fault_ends", "none");
 }
 
 void add_box(const BoxMeshSpec& box, ObjectText& family) {

@@ -46,7 +46,7 @@ void check_field_ends(SceneReader& reader, const std::string& at, const FieldGeo
         reader.as_given(at + key) +
             (is_length ? " is more than the model's length, " + reader.as_given("/geometry/length")
                        : " is not inside the model, y = " + metres(-half) + " to " + metres(half)),
-        is_length ? "make it shorter or the model longer" : "make \"length\" larger");
+        is_length ? "make it shorter or the model longer" : "make /geometry/length larger");
   }
 }
 

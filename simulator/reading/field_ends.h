@@ -5,7 +5,7 @@
 
 #include "simulator/reading/scene_reader.h"
 
-/// Inside of reading: where blocks of a field end along strike.
+/// Inside of reading: where blocks and faults of a field end along strike.
 namespace faultsim {
 
 /// What an object says of its ends along y: "y_from" and "y_to", or "length", centred on y = 0.

@@ -24,6 +24,13 @@ StrikeInterval block_ends(const FieldGeometry& field, const Block& block) {
   return {block.y_from.value_or(-half), block.y_to.value_or(half)};
 }
 
+StrikeInterval fault_ends(const FieldGeometry& field, std::size_t fault) {
+  const double half = 0.5 * field.fault_length;
+  if (fault >= field.fault_extents.size()) return {-half, half};
+  const FaultExtent& own = field.fault_extents[fault];
+  return {own.y_from.value_or(-half), own.y_to.value_or(half)};
+}
+
 bool reaches(const Scene& scene, std::size_t block, double y) {
   return scene.numerics.plane_strain == Switch::on ||
          block_ends(scene.field, scene.field.blocks[block]).holds(y);
@@ -39,6 +46,10 @@ std::string asymmetric_extent(const Scene& scene) {
   for (const Block& block : field.blocks) {
     const StrikeInterval ends = block_ends(field, block);
     if (!is_symmetric(ends)) return concat("block ", block.name, reach_text(ends));
+  }
+  for (std::size_t f = 0; f < scene.faults.size(); ++f) {
+    const StrikeInterval ends = fault_ends(field, f);
+    if (!is_symmetric(ends)) return concat("fault ", scene.faults[f].name, reach_text(ends));
   }
   return "";
 }

@@ -24,15 +24,43 @@ std::optional<std::size_t> node_at(const Fields& fields, const Eigen::Vector3d& 
                    [&](const Eigen::Vector3d& one) { return (one - place).norm() < kSamePlace; });
 }
 
+/// The same blocks and faults, said one by one: the same bits, whatever is said of all.
+TEST(FieldExtents, ThatAreAlikeAreThoseOfAll) {
+  const Fields common = run(coarse({}), {});
+  const Fields own = run(coarse({{"/geometry/blocks/0/length", "2 km"},
+                                 {"/geometry/blocks/1/y_from", "-1 km"},
+                                 {"/geometry/blocks/1/y_to", "1 km"},
+                                 {"/geometry/block_length", "1234 m"},
+                                 {"/faults/0/length", "2400 m"},
+                                 {"/faults/1/y_from", "-1200 m"},
+                                 {"/faults/1/y_to", "1200 m"},
+                                 {"/faults/2/length", "2.4 km"},
+                                 {"/geometry/fault_length", "3 km"}}),
+                         {});
+  ASSERT_TRUE(own.plan.half_domain);
+  ASSERT_EQ(own.geometry.nodes.size(), common.geometry.nodes.size());
+  ASSERT_EQ(own.steps.size(), common.steps.size());
+  for (std::size_t step = 0; step < own.steps.size(); ++step) {
+    EXPECT_EQ(own.steps[step].traction, common.steps[step].traction) << step;
+    EXPECT_EQ(own.steps[step].jump, common.steps[step].jump) << step;
+  }
+}
+
 /// Nothing of a field tells north from south: seen in a mirror it has the results seen in it.
 TEST(FieldExtents, AFieldSeenInAMirrorHasTheResultsSeenInIt) {
   const Fields here = run(coarse({{"/geometry/blocks/0/y_from", "-600 m"},
                                   {"/geometry/blocks/0/y_to", "1300 m"},
-                                  {"/geometry/blocks/1/y_to", "400 m"}}),
+                                  {"/geometry/blocks/1/y_to", "400 m"},
+                                  {"/faults/0/y_to", "1800 m"},
+                                  {"/faults/2/y_from", "-900 m"},
+                                  {"/faults/2/y_to", "700 m"}}),
                           {});
   const Fields there = run(coarse({{"/geometry/blocks/0/y_from", "-1300 m"},
                                    {"/geometry/blocks/0/y_to", "600 m"},
-                                   {"/geometry/blocks/1/y_from", "-400 m"}}),
+                                   {"/geometry/blocks/1/y_from", "-400 m"},
+                                   {"/faults/0/y_from", "-1800 m"},
+                                   {"/faults/2/y_from", "-700 m"},
+                                   {"/faults/2/y_to", "900 m"}}),
                            {});
   ASSERT_FALSE(here.plan.half_domain || there.plan.half_domain);
   ASSERT_EQ(here.geometry.nodes.size(), there.geometry.nodes.size());
@@ -49,8 +77,11 @@ TEST(FieldExtents, AFieldSeenInAMirrorHasTheResultsSeenInIt) {
 
 /// Blocks of lengths of their own, each centred: half of the domain says it all.
 TEST(FieldExtents, HalfTheDomainOfCentredExtentsIsThatOfTheWhole) {
-  const Settings centred =
-      coarse({{"/geometry/blocks/0/length", "1400 m"}, {"/geometry/blocks/1/length", "2600 m"}});
+  const Settings centred = coarse({{"/geometry/blocks/0/length", "1400 m"},
+                                   {"/geometry/blocks/1/length", "2600 m"},
+                                   {"/faults/0/length", "1800 m"},
+                                   {"/faults/2/length", "3 km"},
+                                   {"/faults/2/overshoot", "300 m"}});
   const Fields half = run(centred, {{"/numerics/half_domain", "on"}});
   const Fields full = run(centred, {{"/numerics/half_domain", "off"}});
   ASSERT_TRUE(half.plan.half_domain && !full.plan.half_domain);

@@ -1,4 +1,4 @@
-// Blocks of a field that end along strike where they say.
+// Blocks and faults of a field that end where they say.
 #include <map>
 
 #include "tests/unit/mesh/mesh_checks.h"
@@ -46,6 +46,9 @@ TEST(FieldExtents, OfAllBlocksAlikeAreTheMeshOfBlockLength) {
     const Mesh common = make_mesh(spec);
     for (Block& block : spec.blocks) block.y_from = -1000, block.y_to = 1000;
     spec.block_length = 1;  // of no block
+    spec.fault_length = 1;  // of no fault
+    spec.fault_extents.assign(3, {.y_from = -1200, .y_to = 1200, .overshoot = 150});
+    spec.fault_overshoot = 1;  // of no fault
     expect_same_bits(make_mesh(spec), common);
   }
 }
@@ -89,11 +92,52 @@ TEST(FieldExtents, AFieldSeenInAMirrorHasTheMeshSeenInIt) {
     EXPECT_NEAR(*one, -*other, 1e-6);
 }
 
-TEST(FieldExtents, PlaneStrainTakesBlocksAsEndless) {
+/// Split nodes are those strictly within, and faces cover length times height.
+TEST(FieldExtents, FaultsReachAsFarAsTheySay) {
+  FieldMeshSpec spec = small_field();
+  spec.fault_extents = {{.y_from = -2000}, {}, {.y_from = 300, .y_to = 1500, .overshoot = 400}};
+  const Mesh mesh = make_mesh(spec);
+  check_mesh(mesh);
+  const double from[3] = {-2000, -1200, 300}, to[3] = {1200, 1200, 1500};
+  const double top[3] = {1850, 1850, 2050 - 400}, foot[3] = {2350, 2400, 2250 + 400};
+  for (size_t f = 0; f < 3; ++f) {
+    SCOPED_TRACE(f);
+    const FaultSurface& fault = mesh.faults[f];
+    EXPECT_NEAR(face_area(fault), (to[f] - from[f]) * (foot[f] - top[f]), 1e-6);
+    size_t n_inside = 0;
+    for (const Eigen::Vector3d& p : mesh.nodes)
+      n_inside += p.x() == spec.blocks[0].from + 2000 * static_cast<double>(f) &&
+                  p.y() > from[f] + 1e-6 && p.y() < to[f] - 1e-6 && -p.z() > top[f] + 1e-6 &&
+                  -p.z() < foot[f] - 1e-6;
+    EXPECT_EQ(n_inside, 2 * fault.nodes.size()) << "each there twice";
+    for (const double end : {from[f], to[f]}) EXPECT_TRUE(lines_along(mesh).contains(end)) << end;
+  }
+}
+
+/// An end at that of the model is cut by it: its nodes are split, those of the other end are not.
+TEST(FieldExtents, AFaultMayGoThroughOneEndOfTheModel) {
+  FieldMeshSpec spec = small_field();
+  spec.fault_extents = {{.y_to = 10e3}, {}, {}};
+  const Mesh mesh = make_mesh(spec);
+  check_mesh(mesh);
+  const FaultSurface& fault = mesh.faults[0];
+  size_t n_south = 0, n_north = 0;
+  for (size_t k = 0; k < fault.points.size(); ++k) {
+    if (fault.node_of_point[k] < 0) continue;
+    n_south += fault.points[k].y() < -1200 + 1e-6;
+    n_north += fault.points[k].y() > 10e3 - 1e-6;
+  }
+  EXPECT_EQ(n_south, 0u);
+  EXPECT_GT(n_north, 2u);
+  EXPECT_NEAR(face_area(fault), 11.2e3 * 500, 1e-5);
+}
+
+TEST(FieldExtents, PlaneStrainTakesBlocksAndFaultsAsEndless) {
   FieldMeshSpec spec = small_field();
   spec.plane_strain = true;
   const Mesh common = make_mesh(spec);
   spec.blocks[0].y_from = 500, spec.blocks[0].y_to = 600;
+  spec.fault_extents = {{.y_from = 500}, {}, {.y_to = 0}};
   expect_same_bits(make_mesh(spec), common);
 }
 

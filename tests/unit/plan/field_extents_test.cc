@@ -1,4 +1,4 @@
-// What is planned of fields whose blocks end where they say along strike.
+// What is planned of fields whose blocks and faults end where they say.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -41,6 +41,11 @@ TEST(FieldExtents, HalfTheDomainIsModelledOfSymmetricBlocksAlone) {
   EXPECT_GT(whole.n_cells, 1.5 * static_cast<double>(plain.n_cells));
   EXPECT_EQ(whole.reductions.at(1).reason,
             "block east reaches from y = -1000 m to 1200 m, which is not symmetric about y = 0");
+  const Plan south = plan_without_problems(scene_with({{"/faults/2/y_from", "-900 m"}}));
+  EXPECT_FALSE(south.half_domain);
+  EXPECT_EQ(south.reductions.at(1).reason,
+            "fault F3 reaches from y = -900 m to 1200 m, which is not symmetric about y = 0");
+  EXPECT_TRUE(plan_without_problems(scene_with({{"/faults/2/length", "3 km"}})).half_domain);
   Changes flat = north;
   flat.emplace_back("/numerics/plane_strain", "on");
   EXPECT_TRUE(plan_without_problems(scene_with(flat)).plane_strain);
@@ -64,6 +69,7 @@ TEST(FieldExtents, AreAFamilyOfTheirOwn) {
   EXPECT_NE(shorter, plain);
   EXPECT_NE(shorter, family({{"/geometry/blocks/0/length", "1500 m"}}));
   EXPECT_NE(shorter, family({{"/geometry/blocks/1/y_to", "750 m"}}));
+  EXPECT_NE(family({{"/geometry/blocks/1/y_to", "750 m"}}), plain);
   EXPECT_NE(shorter,
             family({{"/geometry/blocks/1/length", "1500 m"}, {"/geometry/block_length", "1700 m"}}))
       << "the west block is longer";
@@ -75,10 +81,29 @@ TEST(FieldExtents, AreAFamilyOfTheirOwn) {
       << "no block is as long as that";
 }
 
+TEST(FieldExtents, OfFaultsAreAFamilyOfTheirOwn) {
+  const auto family = [](const Changes& changes) { return family_of(scene_with(changes)); };
+  const std::string plain = family({}), longer = family({{"/faults/1/length", "3 km"}});
+  EXPECT_NE(longer, plain);
+  EXPECT_NE(longer, family({{"/faults/0/length", "3 km"}}));
+  EXPECT_NE(longer, family({{"/faults/1/y_to", "1500 m"}}));
+  EXPECT_NE(family({{"/faults/1/overshoot", "200 m"}}), plain);
+  EXPECT_EQ(family({{"/faults/1/overshoot", "150 m"}}), plain);
+  Changes all;
+  for (const char* fault : {"0", "1", "2"})
+    all.emplace_back(std::string("/faults/") + fault + "/length", "3 km");
+  const std::string own = family(all);
+  all.emplace_back("/geometry/fault_length", "4 km");
+  EXPECT_EQ(family(all), own);
+}
+
 /// The prediction counts the grid that is made.
 TEST(FieldExtents, AreCountedAsTheyAreMeshed) {
-  const Scene scene = scene_with(
-      {{"/geometry/blocks/0/y_from", "-300 m"}, {"/geometry/blocks/1/length", "1500 m"}});
+  const Scene scene = scene_with({{"/geometry/blocks/0/y_from", "-300 m"},
+                                  {"/geometry/blocks/1/length", "1500 m"},
+                                  {"/faults/0/y_to", "10 km"},
+                                  {"/faults/1/y_from", "-2 km"},
+                                  {"/faults/2/overshoot", "400 m"}});
   const Plan plan = plan_without_problems(scene);
   const Mesh mesh = scene_mesh(scene, plan);
   EXPECT_EQ(plan.n_cells, std::ssize(mesh.cells));
