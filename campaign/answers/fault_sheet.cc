@@ -9,6 +9,7 @@
 #include "campaign/query/table_output.h"
 #include "simulator/initial_state/fault_pressure.h"
 #include "simulator/initial_state/initial_state.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsweep {
 
@@ -26,7 +27,7 @@ SheetPlace place_of(const SheetSource& source, const FaultOfSheet& fault) {
   place.dip_from_vertical = start.dip;
   if (place.is_field) {
     place.x = fault_x(base, fault.index, fault.datum);
-    place.length = base.field.fault_length;
+    place.length = fault_ends(base.field, fault.index).length();
     if (!std::isnan(start.throw_)) place.throw_ = start.throw_;
   } else {
     place.strike = base.box.patches[fault.index].strike;

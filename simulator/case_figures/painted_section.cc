@@ -1,13 +1,17 @@
 #include "simulator/case_figures/painted_section.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "simulator/case_figures/chosen.h"
 #include "simulator/case_figures/stored_line.h"
 #include "simulator/common/dates.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/figure/axis.h"
+#include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim::case_figures {
 namespace {
@@ -20,6 +24,19 @@ struct SectionPlace {
   std::string why;
 };
 
+/// y on a fault, within what one of the blocks beside it covers.
+double beside_a_block(const FieldGeometry& field, std::size_t fault, double y) {
+  constexpr double kInside = 0.5;  // m: half of what a section at y is wide
+  double nearest = HUGE_VAL;
+  for (const Block& block : blocks_beside(field, fault)) {
+    const StrikeInterval ends = block_ends(field, block);
+    const double inset = std::min(kInside, ends.length() / 2), from = ends.from + inset;
+    const double at = std::clamp(y, from, std::max(from, ends.to - inset));
+    if (std::abs(at - y) < std::abs(nearest - y)) nearest = at;
+  }
+  return nearest;
+}
+
 /// The line on which χ is largest in the whole case; none where its fields were not kept.
 std::optional<SectionPlace> critical_line(const CasePicture& picture) {
   const CriticalMoment moment = critical_moment(picture.result);
@@ -30,9 +47,8 @@ std::optional<SectionPlace> critical_line(const CasePicture& picture) {
   if (!f || !contains(file->faults()[*f].split, 1)) return std::nullopt;
   const StoredFault& fault = file->faults()[*f];
   const auto most = most_critical(fault, file->critical_index(*f, stored_entry(chosen)));
-  constexpr double kInside = 0.5;  // m: half of what a section at y is wide
-  const double half = picture.scene.field.block_length / 2 - kInside;
-  return SectionPlace{std::clamp(fault.points(1, static_cast<Eigen::Index>(most)), -half, half),
+  const double y = fault.points(1, static_cast<Eigen::Index>(most));
+  return SectionPlace{beside_a_block(picture.scene.field, chosen.fault, y),
                       concat(", where χ of ", chosen.fault_name(), " is largest")};
 }
 
@@ -71,6 +87,16 @@ void hold_all(const SectionPressures& pressures, const CaseResult& result, doubl
 
 std::string metres(double length) { return plain_number(length, 4) + " m"; }
 
+/// "not painted, as they end along the faults before the section: east"; "" where none does.
+std::string ended_words(const Scene& scene, const SectionPressures& pressures) {
+  std::vector<std::string> names;
+  for (std::size_t b = 0; b < pressures.n_blocks(); ++b)
+    if (!pressures.reaches(b)) names.push_back(scene.field.blocks[b].name);
+  if (names.empty()) return "";
+  return concat("not painted, as ", names.size() == 1 ? "it ends" : "they end",
+                " along the faults before the section: ", joined(names, ", "));
+}
+
 std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace& place,
                                   const SectionPressures& pressures, bool has_original) {
   const FlowLoad& load = painted_load(picture.scene);
@@ -85,6 +111,8 @@ std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace
              date_text(since), " (negative: it fell), at y = ", metres(place.y), place.why),
       concat("means over pieces of at most ", plain_number(pressures.width()), " m × ",
              plain_number(pressures.height()), " m; ", same_scale_words(picture, has_original))};
+  if (const std::string ended = ended_words(picture.scene, pressures); !ended.empty())
+    words.push_back(ended);
   if (pressures.n_covered() < pressures.n_all()) {
     words.push_back(
         concat("hatched: pieces of which less than half lies in the flow grid; beyond it ",
@@ -129,10 +157,11 @@ void PaintedSection::paint(double time, figure::Section& section) const {
   for (figure::Section::Rock& rock : section.rocks) {
     if (!rock.is_reservoir) continue;
     rock.pieces.clear();
-    const std::vector<double> change = pressures_->at(block, time);
+    const std::size_t b = block++;
+    if (!pressures_->reaches(b)) continue;
+    const std::vector<double> change = pressures_->at(b, time);
     for (std::size_t k = 0; k < change.size(); ++k)
-      rock.pieces.push_back({pressures_->corners(block, k), change[k] / unit_});
-    ++block;
+      rock.pieces.push_back({pressures_->corners(b, k), change[k] / unit_});
   }
 }
 

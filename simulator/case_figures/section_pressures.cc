@@ -6,6 +6,7 @@
 
 #include "simulator/initial_state/pressure_history.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim {
 namespace {
@@ -46,7 +47,10 @@ SectionPressures::SectionPressures(const Scene& scene, double y)
   const FlowLoad& load = painted_load(scene);
   const int n_rows = rows_of(scene), n_columns = kMostPieces / n_rows;
   std::vector<MappedCell> cells;
-  for (std::size_t b = 0; b < n_blocks_; ++b) cut(scene, b, n_columns, n_rows, cells);
+  for (std::size_t b = 0; b < n_blocks_; ++b) {
+    cut(scene, b, n_columns, n_rows, cells);
+    reaches_.push_back(faultsim::reaches(scene, b, y));
+  }
   const FlowField near = field_near(load, cells);
   if (near.cells.empty()) {
     covered_.assign(cells.size(), 0);
@@ -98,8 +102,14 @@ std::vector<double> SectionPressures::at(std::size_t block, double time) const {
 }
 
 std::size_t SectionPressures::n_covered() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(covered_, [](double share) { return share >= kLeastCovered; }));
+  std::size_t n = 0;
+  for (std::size_t piece = 0; piece < covered_.size(); ++piece)
+    n += reaches_[piece / n_pieces()] && covered_[piece] >= kLeastCovered ? 1 : 0;
+  return n;
+}
+
+std::size_t SectionPressures::n_all() const {
+  return n_pieces() * static_cast<std::size_t>(std::ranges::count(reaches_, true));
 }
 
 }  // namespace faultsim

@@ -37,11 +37,13 @@ class SectionPressures {
   /// covered.
   std::vector<double> at(std::size_t block, double time) const;
   double y() const { return y_; }
+  /// Whether a block does not end along the faults before it comes to the section.
+  bool reaches(std::size_t block) const { return reaches_[block]; }
   double width() const { return width_; }    ///< of the widest piece, m.
   double height() const { return height_; }  ///< of the highest one, m.
-  /// How many pieces are covered by half of them or more.
+  /// How many pieces are covered by half of them or more, of blocks that reach the section.
   std::size_t n_covered() const;
-  std::size_t n_all() const { return covered_.size(); }
+  std::size_t n_all() const;  ///< pieces of blocks that reach the section.
 
  private:
   void cut(const Scene& scene, std::size_t block, int n_columns, int n_rows,
@@ -49,7 +51,8 @@ class SectionPressures {
 
   std::size_t n_blocks_;
   double y_, width_ = 0, height_ = 0;
-  std::vector<double> time_;  ///< s, of the reports.
+  std::vector<bool> reaches_;  ///< per block.
+  std::vector<double> time_;   ///< s, of the reports.
   std::vector<std::array<figure::Point, 4>> corners_;
   std::vector<double> covered_;  ///< share, per piece of all blocks.
   Eigen::MatrixXd change_;       ///< Pa or K, pieces x reports.

@@ -5,6 +5,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/initial_state/pressure_history.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim {
 namespace {
@@ -194,8 +195,8 @@ DepthInterval depths_of_fault(const Scene& scene, std::size_t fault) {
 TableExtent table_extent(const Scene& scene, std::size_t fault) {
   const DepthInterval depths = depths_of_fault(scene, fault);
   if (scene.geometry_kind == GeometryKind::field) {
-    const double half = 0.5 * scene.field.fault_length;
-    return {{depths.top, depths.bottom}, {-half, half}};
+    const StrikeInterval ends = fault_ends(scene.field, fault);
+    return {{depths.top, depths.bottom}, {ends.from, ends.to}};
   }
   const PatchGeometry& patch = scene.box.patches[fault];
   TableExtent extent{{depths.top, depths.bottom}, {-0.5 * patch.length, 0.5 * patch.length}};

@@ -9,6 +9,7 @@
 #include "simulator/mesh/shear.h"
 #include "simulator/mesh/structured_grid.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 #include "simulator/scene/offset_intervals.h"
 
 namespace faultsim {
@@ -37,15 +38,15 @@ void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   for (size_t i = 0; i < spec.blocks.size(); ++i) {
     const std::string pointer = concat("/geometry/blocks/", i, "/offset");
     const DepthInterval range = reservoir_range(spec, spec.blocks[i]);
-    if (!(range.top - spec.fault_overshoot > 0))
+    const double overshoot = std::max(overshoot_of(spec, i), overshoot_of(spec, i + 1));
+    if (!(range.top - overshoot > 0))
       problems.push_back({pointer, 0, "puts the top of a fault at or above the surface",
                           "use a larger offset or a smaller fault_overshoot"});
-    if (!(range.bottom + spec.fault_overshoot < spec.depth))
-      problems.push_back(
-          {pointer, 0,
-           concat("puts the foot of a fault at ", range.bottom + spec.fault_overshoot,
-                  " m, at or below the base of the model"),
-           "use a smaller offset or fault_overshoot, or a deeper model"});
+    if (!(range.bottom + overshoot < spec.depth))
+      problems.push_back({pointer, 0,
+                          concat("puts the foot of a fault at ", range.bottom + overshoot,
+                                 " m, at or below the base of the model"),
+                          "use a smaller offset or fault_overshoot, or a deeper model"});
   }
   for (size_t i = 0; i < spec.fault_dips.size(); ++i)
     if (!(std::abs(spec.fault_dips[i]) <= kMaxDip))
@@ -95,9 +96,16 @@ std::vector<double> field_y(const FieldMeshSpec& spec) {
   const double half = 0.5 * spec.length;
   LineBuilder builder(spec.half_domain ? 0 : -half, half, spec.sizes.growth, spec.sizes.largest);
   // A line at y = 0 in the full domain too, so that the half domain is half of its grid.
-  for (const double y : {-0.5 * spec.block_length, 0.0, 0.5 * spec.block_length})
-    builder.add_line(y);
-  builder.add_window(-0.5 * spec.fault_length, 0.5 * spec.fault_length, spec.sizes.strike);
+  builder.add_line(0);
+  for (const Block& block : spec.blocks) {
+    const StrikeInterval ends = block_ends(spec, block);
+    builder.add_line(ends.from);
+    builder.add_line(ends.to);
+  }
+  for (size_t i = 0; i <= spec.blocks.size(); ++i) {
+    const StrikeInterval ends = fault_ends(spec, i);
+    builder.add_window(ends.from, ends.to, spec.sizes.strike);
+  }
   return builder.build();
 }
 
@@ -250,7 +258,7 @@ CellKind kind_at(const FieldMeshSpec& spec, double x, double y, double depth) {
       spec.blocks, [&](const auto& one) { return x > one.from && x < one.to; });
   const size_t reservoir = reservoir_index(spec);
   const bool beside =
-      block == spec.blocks.end() || (!spec.plane_strain && std::abs(y) > 0.5 * spec.block_length);
+      block == spec.blocks.end() || (!spec.plane_strain && !block_ends(spec, *block).holds(y));
   if (beside)
     return {layer == reservoir ? spec.sideburden_material : spec.layer_materials[layer], -1};
   const DepthInterval range = reservoir_range(spec, *block), unmoved = reservoir_range(spec);
@@ -301,12 +309,14 @@ GridFault field_fault(const FieldMeshSpec& spec, const StructuredGrid& grid, siz
   fault.plane = static_cast<size_t>(
       std::lower_bound(x.begin(), x.end(), fault_x(spec, i) - kEdgeTolerance) - x.begin());
   const DepthInterval range = fault_range(spec, i);
-  // As long as the model: it has no ends, the model's ends cut it.
-  const bool through = spec.fault_length >= spec.length - kEdgeTolerance;
+  const StrikeInterval ends = fault_ends(spec, i);
+  // An end at that of the model is none: the model's end cuts the fault.
+  const bool south = ends.from > -0.5 * (spec.length - kEdgeTolerance),
+             north = ends.to < 0.5 * (spec.length - kEdgeTolerance);
   for (const double y : grid.lines[1])
     for (const double z : grid.lines[2]) {
-      const bool in_length =
-          spec.plane_strain || through || std::abs(y) < 0.5 * spec.fault_length - kEdgeTolerance;
+      const bool in_length = spec.plane_strain || ((!south || y > ends.from + kEdgeTolerance) &&
+                                                   (!north || y < ends.to - kEdgeTolerance));
       const bool in_depth = -z > range.top + kEdgeTolerance && -z < range.bottom - kEdgeTolerance;
       fault.split.push_back(in_length && in_depth ? 1 : 0);
     }

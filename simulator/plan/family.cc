@@ -55,12 +55,23 @@ auto lists(const List& all) {
 
 void append_block(std::string& text, const Block& block) {
   append_members(text, block);
-  if (block.thickness) {
-    text += ",{\"thickness\":";
-    append(text, *block.thickness);
-    text += '}';
+  if (block.thickness || block.y_from || block.y_to) {
+    text += ',';
+    ObjectText own(text);
+    if (block.thickness) own.add("thickness", *block.thickness);
+    if (block.y_from) own.add("y_from", *block.y_from);
+    if (block.y_to) own.add("y_to", *block.y_to);
+    own.close();
   }
   text += ']';
+}
+
+void append_extent(std::string& text, const FaultExtent& fault) {
+  ObjectText own(text);
+  if (fault.y_from) own.add("y_from", *fault.y_from);
+  if (fault.y_to) own.add("y_to", *fault.y_to);
+  if (fault.overshoot) own.add("overshoot", *fault.overshoot);
+  own.close();
 }
 
 std::vector<double> tops(const std::vector<Layer>& layers, double sign) {
@@ -76,12 +87,17 @@ void add_field(const FieldMeshSpec& spec, ObjectText& family) {
   family.add("layer_materials", spec.layer_materials);
   family.add("reservoir_layer", static_cast<int>(reservoir_index(spec)));
   family.add("sideburden", spec.sideburden_material);
-  family.add("block_length", spec.block_length);
-  family.add("fault", std::array{spec.fault_length, spec.fault_overshoot, spec.pivot_depth});
+  if (spec.uses_block_length()) family.add("block_length", spec.block_length);
+  const double fault_length = spec.uses_fault_length() ? spec.fault_length : 0;
+  family.add("fault", std::array{fault_length, spec.fault_overshoot, spec.pivot_depth});
+  if (!spec.fault_extents.empty()) {
+    family.add("fault_extents",
+               [&](std::string& to) { append_list(to, spec.fault_extents, append_extent); });
+  }
   family.add("fault_dips", spec.fault_dips);
   family.add("half", spec.half_domain);
   family.add("blocks", [&](std::string& to) { append_list(to, spec.blocks, append_block); });
-  if (!spec.plane_strain && spec.fault_length >= spec.length) family.add("fault_ends", "none");
+  if (!spec.plane_strain && fault_length >= spec.length) family.add("fault_ends", "none");
 }
 
 void add_box(const BoxMeshSpec& box, ObjectText& family) {

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim {
 namespace {
@@ -23,12 +24,13 @@ std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
     const double beside = std::min({kBesideFault, east[0] - west[0], east[1] - west[1]});
     const std::array<double, 2> east_of_west = {west[0] + beside, west[1] + beside},
                                 west_of_east = {east[0] - beside, east[1] - beside};
-    const double half = 0.5 * scene.field.block_length;
+    const StrikeInterval ends = block_ends(scene.field, block);
+    const auto slice = [&](const std::array<double, 2>& from, const std::array<double, 2>& to) {
+      return within_ends(between_sides(from, to, depths.top, depths.bottom, 1), ends);
+    };
     bodies.push_back({.corners = block_corners(scene, static_cast<std::size_t>(b)), .region = b});
-    bodies.push_back({.corners = between_sides(west, east_of_west, depths.top, depths.bottom, half),
-                      .region = n_blocks + b});
-    bodies.push_back({.corners = between_sides(west_of_east, east, depths.top, depths.bottom, half),
-                      .region = n_blocks + b + 1});
+    bodies.push_back({.corners = slice(west, east_of_west), .region = n_blocks + b});
+    bodies.push_back({.corners = slice(west_of_east, east), .region = n_blocks + b + 1});
   }
   return bodies;
 }

@@ -16,6 +16,7 @@
 #include "simulator/plan/creep_plan.h"
 #include "simulator/plan/planned_grid.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim {
 namespace {
@@ -80,6 +81,8 @@ Reduction plan_half_domain(const Scene& scene, bool plane_strain) {
   } else if (scene.numerics.half_domain == Switch::off) {
     r.reason = "switched off";
     r.bound = exact;
+  } else if (const std::string extent = asymmetric_extent(scene); !extent.empty()) {
+    r.reason = extent + ", which is not symmetric about y = 0";
   } else if (const std::string text = asymmetry_text(scene); !text.empty()) {
     r.reason = "the flow result is not symmetric about y = 0" + text;
   } else if (std::ranges::any_of(scene.faults, [](const Fault& fault) {

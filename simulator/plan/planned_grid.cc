@@ -7,6 +7,7 @@
 
 #include "simulator/plan/body_mesh.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 namespace faultsim {
 namespace {
@@ -29,12 +30,15 @@ std::pair<int, int> line_at(const std::vector<double>& lines, double at) {
 std::vector<FaultWindow> field_faults(const Scene& scene, const Plan& plan,
                                       const GridLines& lines) {
   const FieldGeometry& field = scene.field;
-  const bool has_ends = field.fault_length < field.length;  // else the model's ends cut it
-  const double reach = has_ends ? field.fault_length / 2 : field.length;
-  const auto columns = plan.plane_strain ? std::pair{0, 1} : lines_between(lines[1], -reach, reach);
+  const double end = field.length / 2;  // there the model cuts a fault
   std::vector<FaultWindow> faults;
   for (std::size_t f = 0; f <= field.blocks.size(); ++f) {
     const DepthInterval range = fault_range(field, f);
+    const StrikeInterval along = fault_ends(field, f);
+    const auto columns =
+        plan.plane_strain ? std::pair{0, 1}
+                          : lines_between(lines[1], along.from > -end ? along.from : -field.length,
+                                          along.to < end ? along.to : field.length);
     faults.push_back({{line_at(lines[0], fault_x(field, f)), columns,
                        lines_between(lines[2], -range.bottom, -range.top)}});
   }
@@ -112,10 +116,10 @@ double reservoir_cells(const Scene& scene, const GridLines& lines, bool plane_st
   };
   double n = 0;
   if (scene.geometry_kind == GeometryKind::field) {
-    const double half = scene.field.block_length / 2;
     for (const Block& block : scene.field.blocks) {
       const DepthInterval range = reservoir_range(scene.field, block);
-      n += box(block.from, block.to, -half, half, -range.bottom, -range.top);
+      const StrikeInterval ends = block_ends(scene.field, block);
+      n += box(block.from, block.to, ends.from, ends.to, -range.bottom, -range.top);
     }
     return n;
   }

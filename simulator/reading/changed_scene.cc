@@ -168,6 +168,7 @@ bool read_sections(const Touched& touched, unsigned sections, Relations relation
   if ((sections & kFaults) != 0) {
     scene.faults.clear();
     scene.box.patches.clear();
+    scene.field.fault_extents.clear();
     read_faults(reader, scene);
   }
   if (!keeps_report(report, scene)) return false;
@@ -265,6 +266,7 @@ std::vector<std::string> change_scene(const JsonDocument& base, std::vector<Plac
     }
   }
   if (!touched.placeless.empty()) return touched.placeless;
+  const std::vector<FaultExtent> extents = changed.scene.field.fault_extents;
   if (sections == kAll || !read_sections(touched, sections, relations, changed)) {
     changed.known.by_value.clear();
     std::vector<Problem> found;
@@ -273,6 +275,7 @@ std::vector<std::string> change_scene(const JsonDocument& base, std::vector<Plac
     if (!found.empty()) return {};
     sections = kAll;
   }
+  if (changed.scene.field.fault_extents != extents) sections |= kGeometry;  // it says them
   write_parts(changed.scene, sections, changed.canonical);
   changed.values = std::move(values);
   changed.is_of_base = true;

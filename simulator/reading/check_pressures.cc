@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "simulator/initial_state/pressure_history.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/scene/field_extents.h"
 
 /// No pressure falls below zero: of regions, and of faults by any rule. NaN marks what was reported
 /// before and fails no check.
@@ -164,6 +166,25 @@ void check_given(SceneReader& reader, const Scene& scene, std::size_t fault) {
       });
 }
 
+/// Where a field's fault lies beside blocks or parts of them.
+struct MixedPlace {
+  double y, depth;  ///< m.
+  DepthSide side;
+};
+
+/// Amid the pieces into which the ends of blocks cut the strike, m.
+std::vector<double> middles_along(const FieldGeometry& field, std::span<const Block> blocks) {
+  std::vector<double> ends, middles;
+  for (const Block& block : blocks) {
+    const StrikeInterval along = block_ends(field, block);
+    ends.insert(ends.end(), {along.from, along.to});
+  }
+  std::ranges::sort(ends);
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+    if (ends[i] < ends[i + 1]) middles.push_back(0.5 * (ends[i] + ends[i + 1]));
+  return middles;
+}
+
 /// What the rule of a field's fault makes of blocks with an overpressure of their own: one that
 /// takes the overpressure from one side and the fall from the other may go below zero where neither
 /// block does.
@@ -180,34 +201,31 @@ void check_mixed(SceneReader& reader, const Scene& scene, std::size_t fault) {
     depths.push_back(reservoir_range(scene.field, block).bottom);
   }
   const std::vector<Block>& all = scene.field.blocks;
-  const auto by_rule = [&](double depth, DepthSide side, const auto& of_block) {
+  const auto by_rule = [&](const MixedPlace& at, const auto& of_block) {
     const auto beside = [&](std::size_t block) {  // west of fault f lies block f − 1
-      const bool is_there =
-          block < all.size() && reservoir_range(scene.field, all[block]).holds(depth, side);
+      const bool is_there = block < all.size() && reaches(scene, block, at.y) &&
+                            reservoir_range(scene.field, all[block]).holds(at.depth, at.side);
       return is_there ? of_block(block) : 0.0;
     };
     return pressure_by_rule(law, beside(fault - 1), beside(fault));
   };
-  std::vector<std::pair<double, DepthSide>> places;
-  for (const double depth : depths) {
-    for (const DepthSide side : {DepthSide::above, DepthSide::below})
-      places.push_back({depth, side});
+  std::vector<MixedPlace> places;
+  for (const double y : middles_along(scene.field, blocks)) {
+    for (const double depth : depths) {
+      for (const DepthSide side : {DepthSide::above, DepthSide::below})
+        places.push_back({y, depth, side});
+    }
   }
   check_lowest(
       reader, scene, fault, "rule", places,
-      [&](const auto& place, double time) -> FaultPressureAt {
-        const double depth = place.first;
-        const DepthSide side = place.second;
+      [&](const MixedPlace& at, double time) -> FaultPressureAt {
         const double initial =
-            initial_state(scene, -depth, side).pressure + by_rule(depth, side, [&](std::size_t b) {
-              return own_pressure_excess(scene, b, -depth, side);
+            initial_state(scene, -at.depth, at.side).pressure + by_rule(at, [&](std::size_t b) {
+              return own_pressure_excess(scene, b, -at.depth, at.side);
             });
-        return {depth,
-                initial + by_rule(depth, side,
-                                  [&](std::size_t b) {
-                                    return pressure_change_at(scene.pressure[b], time);
-                                  }),
-                initial};
+        const double change =
+            by_rule(at, [&](std::size_t b) { return pressure_change_at(scene.pressure[b], time); });
+        return {at.depth, initial + change, initial};
       },
       [](double) {
         return "take a rule that takes both from one side, as \"mean\", or let the blocks fall "

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/initial_state/load_times.h"
+#include "simulator/reading/field_ends.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/field_depths.h"
 
@@ -45,13 +46,14 @@ void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
                          metres(-0.5 * field.width) + " to " + metres(0.5 * field.width),
                      "make \"width\" larger");
     }
+    check_field_ends(reader, element(at + "blocks", i) + "/", field);
   }
 }
 
 void check_offsets(SceneReader& reader, const FieldGeometry& field) {
-  const double margin = field.fault_overshoot;
   for (std::size_t i = 0; i < field.blocks.size(); ++i) {
     const Block& block = field.blocks[i];
+    const double margin = std::max(overshoot_of(field, i), overshoot_of(field, i + 1));
     const DepthInterval reservoir = reservoir_range(field, block);
     const double top = reservoir.top - margin;
     const double bottom = reservoir.bottom + margin;
@@ -75,7 +77,10 @@ void check_crossing(SceneReader& reader, const Scene& scene) {
   if (scene.faults.size() != field.blocks.size() + 1 || field.blocks.empty()) return;
   DepthInterval all = reservoir_range(field);
   for (const Block& block : field.blocks) all.unite(reservoir_range(field, block));
-  for (const double depth : {all.top - field.fault_overshoot, all.bottom + field.fault_overshoot}) {
+  double overshoot = 0;
+  for (std::size_t f = 0; f < scene.faults.size(); ++f)
+    overshoot = std::max(overshoot, overshoot_of(field, f));
+  for (const double depth : {all.top - overshoot, all.bottom + overshoot}) {
     for (std::size_t i = 0; i < scene.faults.size(); ++i) {
       const std::string pointer = element("/faults", i) + "/dip_from_vertical";
       const double x = fault_x(scene, i, depth);
@@ -237,6 +242,8 @@ void check_geometry(SceneReader& reader, const Scene& scene) {
   if (!reader.sound("/geometry/file") || !reader.sound("/geometry/volumes")) return;
   if (scene.geometry_kind == GeometryKind::field) {
     check_field_extent(reader, scene.field);
+    for (std::size_t i = 0; i < scene.faults.size(); ++i)
+      check_field_ends(reader, element("/faults", i) + "/", scene.field);
     check_offsets(reader, scene.field);
     check_crossing(reader, scene);
   } else if (!is_meshed(scene)) {

@@ -206,6 +206,8 @@ bool has_rival(const json& object, const std::string& key) {
       {"tensor", "vertical_stress"},
       {"tensor", "vertical_stress_gradient"},
       {"tensor", "viscous_layers"},
+      {"length", "y_from"},
+      {"length", "y_to"},
       {"creep_time_step", "creep_refinements"}};
   if (object.contains(key)) return false;
   return std::ranges::any_of(groups, [&](const auto& group) {

@@ -10,6 +10,7 @@
 #include "simulator/reading/csv_tables.h"
 #include "simulator/reading/fault_places.h"
 #include "simulator/reading/fault_pressure_csv.h"
+#include "simulator/reading/field_ends.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
 #include "simulator/scene/mesh_body.h"
@@ -221,7 +222,7 @@ void refuse_other_places(SceneReader& reader, const std::string& at) {
   };
   constexpr std::array<Kind, 4> kKinds = {
       {{"field", "faults of a field lie at the ends of the blocks",
-        "remove it; blocks, fault_length and fault_overshoot say where faults are"},
+        "remove it; y_from and y_to say how far along strike, overshoot how far beyond reservoirs"},
        {"box", "a fault of a box is a patch",
         "remove it; center, length and width say where it is"},
        {"mesh", "a fault of a mesh lies where its physical surface does", "remove it"},
@@ -245,15 +246,29 @@ void read_dip_list(SceneReader& reader, const std::string& pointer, Fault& fault
   reader.problem(pointer, "a fault of this body has one dip", "write one value");
 }
 
-/// The patch of a fault of a box, or the mean plane of that of a mesh; of a field no more than the
-/// dip is given.
+/// How far a fault of a field reaches, where it says so.
+FaultExtent read_extent(SceneReader& reader, const std::string& at, const Fault& fault,
+                        const FieldGeometry& field) {
+  FaultExtent extent;
+  read_keys(reader, at, extent);
+  read_field_ends(reader, at, "fault \"" + fault.name + "\"", field.fault_length, extent.y_from,
+                  extent.y_to);
+  if (extent.overshoot == field.fault_overshoot) extent.overshoot.reset();
+  return extent;
+}
+
+/// The patch of a fault of a box, the mean plane of that of a mesh, the extent of that of a field,
+/// whose dip is known.
 void read_place(SceneReader& reader, const std::string& at, const Fault& fault, Scene& scene) {
   const bool is_field = scene.geometry_kind == GeometryKind::field;
   if (is_of_mesh(reader)) {
     read_surface_place(reader, at, fault, scene);
   } else {
     check_dip(reader, at, !is_field, fault.dip_from_vertical);
-    if (!is_field) scene.box.patches.push_back(read_patch(reader, at));
+    if (is_field)
+      scene.field.fault_extents.push_back(read_extent(reader, at, fault, scene.field));
+    else
+      scene.box.patches.push_back(read_patch(reader, at));
   }
   refuse_other_places(reader, at);
 }
@@ -306,6 +321,9 @@ void read_faults(SceneReader& reader, Scene& scene) {
     names.push_back(fault.name);
   }
   reader.require_unique("/faults", "/name", names);
+  std::vector<FaultExtent>& extents = scene.field.fault_extents;
+  const auto is_common = [](const FaultExtent& one) { return one == FaultExtent(); };
+  if (std::ranges::all_of(extents, is_common)) extents.clear();
   if (scene.geometry_kind == GeometryKind::field) check_count(reader, scene);
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "simulator/common/ranges.h"
+#include "simulator/reading/field_ends.h"
 #include "simulator/reading/read_body.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
@@ -43,7 +44,8 @@ void check_neighbours(SceneReader& reader, const std::string& at, const Block& b
                  "write \"" + metres(west.to) + "\": blocks lie side by side from west to east");
 }
 
-std::vector<Block> read_blocks(SceneReader& reader) {
+/// @param length  m, of blocks that do not say where they end along y.
+std::vector<Block> read_blocks(SceneReader& reader, double length) {
   const auto check = [&](const std::string& at, Block& block, const std::vector<Block>& west) {
     // Equal, it says nothing, unless a surface goes on to other offsets.
     if (block.mesh_offset == block.offset && !reader.has("/numerics/surface"))
@@ -53,6 +55,7 @@ std::vector<Block> read_blocks(SceneReader& reader) {
                      "write \"to\" larger than \"from\" (x grows eastwards)");
     }
     if (!west.empty()) check_neighbours(reader, at, block, west.back());
+    read_field_ends(reader, at, "block \"" + block.name + "\"", length, block.y_from, block.y_to);
   };
   return read_list<Block>(reader, "/geometry/blocks", check);
 }
@@ -67,7 +70,7 @@ void read_field(SceneReader& reader, Scene& scene) {
     reader.require_known(at + "reservoir_layer", field.reservoir_layer, "layer", layer_names);
   }
   reader.require_known(at + "sideburden", field.sideburden, "material", material_names(scene));
-  field.blocks = read_blocks(reader);
+  field.blocks = read_blocks(reader, field.block_length);
   const DepthInterval reservoir = reservoir_range(field);
   for (Block& block : field.blocks) {  // that of the layer says nothing
     if (block.thickness == reservoir.bottom - reservoir.top) block.thickness.reset();

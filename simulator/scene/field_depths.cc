@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "simulator/flow/flow_mapping.h"
+#include "simulator/scene/field_extents.h"
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
@@ -44,10 +45,16 @@ std::span<const Block> blocks_beside(const FieldGeometry& field, std::size_t fau
   return std::span(field.blocks).subspan(first, std::min(fault + 1, field.blocks.size()) - first);
 }
 
+double overshoot_of(const FieldGeometry& field, std::size_t fault) {
+  if (fault >= field.fault_extents.size()) return field.fault_overshoot;
+  return field.fault_extents[fault].overshoot.value_or(field.fault_overshoot);
+}
+
 DepthInterval fault_range(const FieldGeometry& field, std::size_t fault) {
   DepthInterval range{HUGE_VAL, -HUGE_VAL};
   for (const Block& block : blocks_beside(field, fault)) range.unite(reservoir_range(field, block));
-  return {range.top - field.fault_overshoot, range.bottom + field.fault_overshoot};
+  const double overshoot = overshoot_of(field, fault);
+  return {range.top - overshoot, range.bottom + overshoot};
 }
 
 DepthInterval all_faults_range(const FieldGeometry& field) {
@@ -79,8 +86,8 @@ CellCorners block_corners(const Scene& scene, std::size_t block) {
   const auto x_of = [&](std::size_t fault) {
     return std::array{fault_x(scene, fault, depths.top), fault_x(scene, fault, depths.bottom)};
   };
-  return between_sides(x_of(block), x_of(block + 1), depths.top, depths.bottom,
-                       0.5 * scene.field.block_length);
+  return within_ends(between_sides(x_of(block), x_of(block + 1), depths.top, depths.bottom, 1),
+                     block_ends(scene.field, scene.field.blocks[block]));
 }
 
 double fault_x(const Scene& scene, std::size_t fault, double depth) {

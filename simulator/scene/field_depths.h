@@ -35,7 +35,10 @@ DepthInterval reservoir_range(const FieldGeometry& field, const Block& block);
 
 /// The blocks that a field's fault touches, west to east: one for the outer faults, else two.
 std::span<const Block> blocks_beside(const FieldGeometry& field, std::size_t fault);
-/// From fault_overshoot above the shallowest to fault_overshoot below the deepest edge of the
+/// How far a fault reaches beyond the reservoirs beside it, m: its own overshoot or
+/// fault_overshoot.
+double overshoot_of(const FieldGeometry& field, std::size_t fault);
+/// From its overshoot above the shallowest to its overshoot below the deepest edge of the
 /// reservoirs beside the fault.
 DepthInterval fault_range(const FieldGeometry& field, std::size_t fault);
 /// From the shallowest to the deepest point of its faults.

@@ -59,6 +59,9 @@ struct Block {
   std::optional<double> mesh_offset = std::nullopt;
   /// m, of its reservoir from its top down. None = that of the reservoir layer.
   std::optional<double> thickness = std::nullopt;
+  /// m: where it begins and ends along y, beside it is sideburden. None = at ∓block_length/2.
+  std::optional<double> y_from = std::nullopt;
+  std::optional<double> y_to = std::nullopt;
   bool operator==(const Block&) const = default;
 };
 void for_each_key(Of<Block> auto& b, auto&& visit) {
@@ -69,6 +72,21 @@ void for_each_key(Of<Block> auto& b, auto&& visit) {
   visit({"overpressure"}, b.overpressure);
   visit({"mesh_offset", kFamily}, b.mesh_offset);
   visit({"thickness"}, b.thickness);
+  visit({"y_from"}, b.y_from);
+  visit({"y_to"}, b.y_to);
+}
+
+/// How far a fault of a field reaches where that is not as of the others.
+struct FaultExtent {
+  std::optional<double> y_from = std::nullopt;     ///< m. None = at −fault_length/2.
+  std::optional<double> y_to = std::nullopt;       ///< m. None = at fault_length/2.
+  std::optional<double> overshoot = std::nullopt;  ///< m. None = fault_overshoot.
+  bool operator==(const FaultExtent&) const = default;
+};
+void for_each_key(Of<FaultExtent> auto& e, auto&& visit) {
+  visit({"y_from"}, e.y_from);
+  visit({"y_to"}, e.y_to);
+  visit({"overshoot"}, e.overshoot);
 }
 
 /// The conceptual Dutch field: layers, a row of contiguous reservoir blocks, a
@@ -81,11 +99,26 @@ struct FieldGeometry {
   std::string reservoir_layer;  ///< the layer that the blocks shift and that is depleted.
   std::string sideburden;       ///< material beside the blocks at reservoir level.
   std::vector<Block> blocks;    ///< west to east, contiguous.
-  double block_length = 0;      ///< m, blocks cover |y| <= block_length/2.
-  double fault_length = 0;      ///< m, faults cover |y| <= fault_length/2.
+  double block_length = 0;      ///< m, blocks cover |y| <= block_length/2 unless they say.
+  double fault_length = 0;      ///< m, faults cover |y| <= fault_length/2 unless they say.
   /// m above the shallowest and below the deepest reservoir edge touched.
   double fault_overshoot = 150;
   double pivot_depth = 0;  ///< m, where a dipping fault keeps its x.
+  /// One per Scene::faults, same order; empty where all are as fault_length and fault_overshoot
+  /// say.
+  std::vector<FaultExtent> fault_extents;
+  /// Whether a block takes an end from block_length.
+  bool uses_block_length() const {
+    for (const Block& block : blocks)
+      if (!block.y_from || !block.y_to) return true;
+    return blocks.empty();
+  }
+  /// Whether a fault takes an end from fault_length.
+  bool uses_fault_length() const {
+    for (const FaultExtent& fault : fault_extents)
+      if (!fault.y_from || !fault.y_to) return true;
+    return fault_extents.empty();
+  }
   bool operator==(const FieldGeometry&) const = default;
 };
 void for_each_key(Of<FieldGeometry> auto& f, auto&& visit) {
@@ -97,10 +130,11 @@ void for_each_key(Of<FieldGeometry> auto& f, auto&& visit) {
   visit({"reservoir_layer"}, f.reservoir_layer);
   visit({"sideburden"}, f.sideburden);
   visit({"blocks", kByHand}, f.blocks);
-  visit({"block_length", kRequired}, f.block_length);
-  visit({"fault_length", kRequired}, f.fault_length);
+  visit({"block_length", kRequired | unless(f.uses_block_length(), kIdle)}, f.block_length);
+  visit({"fault_length", kRequired | unless(f.uses_fault_length(), kIdle)}, f.fault_length);
   visit({"fault_overshoot"}, f.fault_overshoot);
   visit({"pivot_depth", kByHand}, f.pivot_depth);
+  visit({"fault_extents", kByHand | unless(!f.fault_extents.empty(), kSilent)}, f.fault_extents);
 }
 
 enum class PatchShape { rectangle, ellipse };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "simulator/common/ranges.h"
 #include "simulator/scene/field_depths.h"
@@ -27,10 +28,16 @@ std::vector<double> gaps(const FieldGeometry& field) {
   return found;
 }
 
+/// Edges of a reservoir, and tips that faults might have because of them.
 void add_edges(const FieldGeometry& field, const Block& block, std::vector<double>& depths) {
+  std::set<double> overshoots;
+  for (std::size_t f = 0; f <= field.blocks.size(); ++f) overshoots.insert(overshoot_of(field, f));
   const DepthInterval range = reservoir_range(field, block);
-  for (const double edge : {range.top, range.bottom})
-    depths.insert(depths.end(), {edge - field.fault_overshoot, edge, edge + field.fault_overshoot});
+  for (const double edge : {range.top, range.bottom}) {
+    depths.push_back(edge);
+    for (const double beyond : overshoots)
+      depths.insert(depths.end(), {edge - beyond, edge + beyond});
+  }
 }
 
 /// Offsets in (from, to) at which two lines meet, ascending: where a depth that goes with the block

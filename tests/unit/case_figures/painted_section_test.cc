@@ -336,5 +336,34 @@ TEST(PaintedSection, OfAFieldIn3DGoesThroughTheMostCriticalPoint) {
               HasSubstr("at y = 0 m, the middle<"));
 }
 
+/// A block that ends before the section is not painted, and said to; where both beside the fault
+/// end before its most critical point, the section goes through the nearer end.
+TEST(PaintedSection, GoesThroughBlocksThatReachIt) {
+  Scene scene = painted_scene(flow_result([](double, double y) { return -y / 10; }));
+  scene.field.blocks[1].y_to = 300;
+  CaseResult result = small_result();
+  result.plane_strain = false;
+  CriticalFields fields;
+  fields.all_faults = {fields.fault};
+  const auto painted = [&](std::size_t block) {
+    figure::Section section = field_section(scene);
+    case_figures::PaintedSection({result, scene, &fields, {}})
+        .paint(2 * kFiveYearsInSeconds, section);
+    return section.rocks.at(section.rocks.size() - 2 + block).pieces;
+  };
+  ASSERT_FALSE(painted(0).empty());
+  EXPECT_NEAR(painted(0)[0].value, -45, 1e-9);
+  EXPECT_TRUE(painted(1).empty());
+  const auto svg = [&] {
+    return draw_case({result, scene, &fields, {}}, {CaseChart::section, {}, 2, false});
+  };
+  EXPECT_THAT(svg(),
+              HasSubstr("not painted, as it ends along the faults before the section: east<"));
+  EXPECT_THAT(svg(), Not(HasSubstr("hatched"))) << "all of the west block is covered";
+  scene.field.blocks[0].y_to = 400;
+  EXPECT_NEAR(painted(0)[0].value, -35, 1e-9) << "the west block's end is nearer than the east's";
+  EXPECT_THAT(svg(), HasSubstr("at y = 399.5 m"));
+}
+
 }  // namespace
 }  // namespace faultsim

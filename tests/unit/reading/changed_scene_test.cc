@@ -111,6 +111,18 @@ TEST_P(ChangedSceneTest, ABoxHasItsPatchesAgain) {
   change({{"/geometry/from", parsed(R"(["-2000 m", "-2000 m", "-4000 m"])")}});
 }
 
+/// The geometry says how far faults reach.
+TEST_P(ChangedSceneTest, AFieldHasTheExtentsOfItsFaultsAgain) {
+  change({{"/faults/0/length", "2 km"}});
+  change({{"/faults/0/length", "1 km"}});
+  change({{"/faults/1/overshoot", "200 m"}});
+  change({{"/geometry/fault_length", "3 km"}, {"/faults/1/y_to", "1500 m"}});
+  change({{"/geometry/fault_length", "2 km"}, {"/faults/1/y_to", "1500 m"}});
+  change({{"/friction/friction_angle", "27 deg"}});
+  change({{"/faults/0/length", "2 km"}});
+  change({});
+}
+
 TEST(ChangedScene, SaysWhatHasNoPlace) {
   const JsonDocument base = parse_json(starter_scene("field"), "field");
   ChangedScene changed;

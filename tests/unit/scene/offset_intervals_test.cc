@@ -60,6 +60,18 @@ TEST(OffsetIntervals, HaveLayoutsFromWhichLinesCanBeMovedToTheirEnds) {
   }
 }
 
+/// F3 has its lower tip 120 m below the east block, F1 150 m below the west one.
+TEST(OffsetIntervals, KeepAwayFromWhereTipsOfFaultsOfOtherOvershootsMeet) {
+  FieldGeometry other = field();
+  other.fault_extents = {{}, {}, {.overshoot = 120}};
+  const auto hold = [](const FieldGeometry& of) {
+    return std::ranges::count_if(offset_intervals(of, 1, 0, 200),
+                                 [](const auto& one) { return one.holds(30); });
+  };
+  EXPECT_EQ(hold(other), 0);
+  EXPECT_GT(hold(field()), 0);
+}
+
 TEST(OffsetIntervals, AreOneWhereOneLayoutServes) {
   const std::vector<OffsetInterval> all = offset_intervals(field(), 1, 60, 110);
   ASSERT_EQ(all.size(), 1u);
