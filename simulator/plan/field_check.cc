@@ -122,8 +122,11 @@ class FieldChecker {
       const std::string what = concat("covers ", percent(region), " of the volume of ", name(r));
       if (load_.outside_given || region.covered >= kLeastCovered * region.volume) {
         remark(concat(what, "; the rest ",
-                      load_.outside == OutsideRule::nearest ? "takes what the nearest flow cell has"
-                                                            : "does not change"));
+                      load_.integral == IntegralRule::flow_grid
+                          ? "takes what is beside it, and the integral stays that of the flow cells"
+                      : load_.outside == OutsideRule::nearest
+                          ? "takes what the nearest flow cell has"
+                          : "does not change"));
         continue;
       }
       is_enough = false;
