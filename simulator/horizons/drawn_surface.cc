@@ -109,8 +109,9 @@ double length_of(const LevelLine& line) {
 
 /// Points at equal distances of about a cell from end to end.
 LevelLine evenly(const LevelLine& line, double cell) {
+  constexpr double kMost = 5000;  // more are far out of the box, which is said later
   const double length = length_of(line);
-  const int n = std::max(1, static_cast<int>(std::lround(length / cell)));
+  const int n = static_cast<int>(std::lround(std::clamp(length / cell, 1.0, kMost)));
   LevelLine points = {line.front()};
   double before = 0;
   std::size_t piece = 0;

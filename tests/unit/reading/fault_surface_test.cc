@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "simulator/common/errors.h"
 
 namespace faultsim {
@@ -157,6 +159,28 @@ TEST(FaultSurface, AllThatIsWrongWithSticksIsSaidByLine) {
   EXPECT_THAT(said(std::string(kSticks) + "C, 1, 1, 1\n"),
               HasSubstr("the stick \"C\" has one point"));
   EXPECT_THAT(said("stick,x [m],y [m],depth [m]\nA,0,0,0\nA,0,0,9\n"), HasSubstr("has one stick"));
+}
+
+TEST(FaultSurface, NonsenseIsReadOrRefused) {
+  std::mt19937 random(3);
+  const std::string characters = "0123456789 -.,;\t\n\"#{}TRGLVXAOMe";
+  int n_refused = 0;
+  for (int round = 0; round < 1000; ++round) {
+    std::string text = round % 2 == 0 ? kSurface : kSticks;
+    for (int change = 0; change < 1 + round % 5; ++change)
+      text[random() % text.size()] = characters[random() % characters.size()];
+    try {
+      const DrawnSurface surface = parse_fault_surface(text, "F", "F");
+      for (const auto& triangle : surface.triangles)
+        for (const int v : triangle) EXPECT_LT(v, static_cast<int>(surface.points.size()));
+      std::vector<Problem> problems;
+      horizons::lines_of(surface, {}, -2000, 50, "/at", "F", problems);
+    } catch (const InputError&) {
+      ++n_refused;
+    }
+  }
+  EXPECT_GT(n_refused, 250);
+  EXPECT_LT(n_refused, 975);
 }
 
 }  // namespace
