@@ -34,8 +34,8 @@ bool reaches(const Scene& scene, std::size_t block, double y);
 /// of a block.
 CellCorners within_ends(CellCorners corners, const StrikeInterval& ends);
 
-/// The first block or fault that is not its own mirror image at y = 0, in words: "block east reaches from
-/// y = -500 m to 1200 m"; "" where all are.
+/// The first block or fault that is not its own mirror image at y = 0, in words: "block east
+/// reaches from y = -500 m to 1200 m"; "" where all are.
 std::string asymmetric_extent(const Scene& scene);
 
 }  // namespace faultsim

@@ -51,6 +51,12 @@ TEST_F(FaultSheets, TheDatumIsTheMiddleOfTheReservoirsBesideTheFault) {
   EXPECT_THAT(place_words(sheet), Contains(HasSubstr("2,000 to 2,200 m")));
 }
 
+TEST_F(FaultSheets, AFaultIsAsLongAsItSays) {
+  f_.set("/faults/1/y_to", "1800 m");
+  submit();
+  EXPECT_EQ(f_.sheet().place.length, 1200 + 1800);
+}
+
 /// Case 2 slides within step 3 (-100 to -150 bar), case 3 within step 4.
 TEST_F(FaultSheets, ABandEndsWithTheLoadStepInWhichTheFirstCaseSlides) {
   submit();

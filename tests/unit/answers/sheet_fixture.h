@@ -115,6 +115,12 @@ class SheetFixture {
     return all;
   }
 
+  /// Changes the base scene, before the campaign is submitted.
+  void set(const std::string& pointer, const std::string& value) {
+    nlohmann::json base = nlohmann::json::parse(s_.scenes[0].document);
+    base[nlohmann::json::json_pointer(pointer)] = value;
+    s_.scenes[0].document = base.dump();
+  }
   /// @param offset  m, of the eastern block.
   void add(faultsim::CaseResult result, double offset = 0) {
     const std::size_t n = s_.cases.size();

@@ -64,12 +64,13 @@ TEST(OffsetIntervals, HaveLayoutsFromWhichLinesCanBeMovedToTheirEnds) {
 TEST(OffsetIntervals, KeepAwayFromWhereTipsOfFaultsOfOtherOvershootsMeet) {
   FieldGeometry other = field();
   other.fault_extents = {{}, {}, {.overshoot = 120}};
-  const auto hold = [](const FieldGeometry& of) {
+  const auto hold = [](const FieldGeometry& of, double offset) {
     return std::ranges::count_if(offset_intervals(of, 1, 0, 200),
-                                 [](const auto& one) { return one.holds(30); });
+                                 [&](const auto& one) { return one.holds(offset); });
   };
-  EXPECT_EQ(hold(other), 0);
-  EXPECT_GT(hold(field()), 0);
+  EXPECT_EQ(hold(other, 30), 0);
+  EXPECT_GT(hold(field(), 30), 0);
+  for (const double beside : {25.0, 35.0, 60.0}) EXPECT_GT(hold(other, beside), 0) << beside;
 }
 
 TEST(OffsetIntervals, AreOneWhereOneLayoutServes) {
