@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -76,6 +77,8 @@ class FlowTable {
                               date_column_ ? "" : " before the values"),
                        header_cure_);
     }
+    require_all_indices();
+    note_what_is_not_used();
     if (column_[5] && !column_[kDepthColumn])
       reader_.refuse("there is a column dz and none of depth", "add depth [m], or leave dz out");
   }
@@ -92,6 +95,7 @@ class FlowTable {
   /// Whether a column is one of those of the place; then it is taken.
   bool take_place(std::size_t i) {
     const std::string name = lower_case(reader_.columns()[i].name);
+    if (take_index(i, name)) return true;
     const bool is_height = name == "z";
     const auto place =
         is_height ? kPlaceColumns.begin() + kDepthColumn : std::ranges::find(kPlaceColumns, name);
@@ -109,10 +113,39 @@ class FlowTable {
     return true;
   }
 
+  /// Whether it is i, j or k, which have no unit; then it is taken.
+  bool take_index(std::size_t i, const std::string& name) {
+    const auto known = std::ranges::find(kIndexColumns, name);
+    if (known == kIndexColumns.end() || reader_.columns()[i].unit) return false;
+    std::optional<std::size_t>& column =
+        index_column_[static_cast<std::size_t>(known - kIndexColumns.begin())];
+    if (column) reader_.refuse("there are two columns " + name, "remove one of the two");
+    column = i;
+    return true;
+  }
+
+  /// One alone is a property like others, and they are of no use without depths.
+  void require_all_indices() {
+    std::vector<std::string> there, missing;
+    for (std::size_t k = 0; k < kIndexColumns.size(); ++k)
+      (index_column_[k] ? there : missing).emplace_back(kIndexColumns[k]);
+    if (there.empty() || (missing.empty() && column_[kDepthColumn])) return;
+    const bool is_property = date_column_ && there.size() == 1;
+    if (column_[kDepthColumn] && !is_property) {
+      return reader_.refuse(
+          concat("has ", joined(there, " and "), " and no ", joined(missing, ", no ")),
+          "give all of i, j and k, by which cells are known, or none of them");
+    }
+    for (std::optional<std::size_t>& column : index_column_) {
+      if (column) not_used_.push_back(*column);
+      column.reset();
+    }
+  }
+
   /// A row for each place and date, columns in any order; those of other properties are not used.
   void long_header() {
     const std::vector<TableColumn>& columns = reader_.columns();
-    std::vector<std::string> others;
+    const std::string other_value = is_pressure_ ? "temperature" : "pressure";
     for (std::size_t i = 0; i < columns.size(); ++i) {
       if (i == *date_column_ || take_place(i)) continue;
       if (lower_case(columns[i].name) == name_of_value()) {
@@ -121,8 +154,8 @@ class FlowTable {
       } else if (columns[i].unit && is_length(*columns[i].unit)) {
         reader_.refuse(table_quote(columns[i].text) + " is none of x, y, depth, z, dx, dy and dz",
                        "name it so, or remove it");
-      } else {
-        others.push_back(columns[i].name);
+      } else if (lower_case(columns[i].name) != other_value) {
+        not_used_.push_back(i);
       }
     }
     if (value_columns_.size() != 1) {
@@ -130,13 +163,14 @@ class FlowTable {
           concat("has ", value_columns_.size(), " columns of values, named ", name_of_value()),
           header_cure_);
     }
-    const std::string other_value = is_pressure_ ? "temperature" : "pressure";
-    std::erase_if(others, [&](const std::string& name) { return lower_case(name) == other_value; });
-    if (!others.empty()) {
-      notes_.push_back(
-          "has columns that are not used: " +
-          joined(others, ", ", [](const std::string& one) { return table_quote(one); }));
-    }
+  }
+
+  void note_what_is_not_used() {
+    if (not_used_.empty()) return;
+    std::ranges::sort(not_used_);
+    notes_.push_back("has columns that are not used: " +
+                     joined(not_used_, ", ",
+                            [&](std::size_t i) { return table_quote(reader_.columns()[i].name); }));
   }
 
   static bool is_length(const std::string& unit) {
@@ -222,6 +256,7 @@ class FlowTable {
       points_.lines.push_back(reader_.line());
     }
     const std::size_t cell = known->second;
+    if (index_column_[0] && !take_index_of(cell, is_new)) return;
     for (std::size_t i = 0; i < value_columns_.size(); ++i) {
       const std::optional<double> value = reader_.value(value_columns_[i]);
       std::vector<double>& values = reports_[report.value_or(i)].values;
@@ -230,6 +265,43 @@ class FlowTable {
         return reader_.refuse("the cell is there twice", "give each cell one value per report");
       values[cell] = value.value_or(kNone);
     }
+  }
+
+  /// i, j, k of a row; none after a refusal.
+  std::optional<CellIndex> index_of_row() {
+    constexpr double kMost = 1e9;
+    CellIndex index{};
+    bool is_whole = true;
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      const std::optional<double> value = reader_.number(*index_column_[k]);
+      if (value && (*value != std::round(*value) || std::abs(*value) > kMost)) {
+        reader_.refuse(concat(kIndexColumns[k], " is ", *value),
+                       "write i, j and k as whole numbers, or leave them out");
+        is_whole = false;
+      }
+      is_whole = is_whole && value;
+      if (is_whole) index[k] = static_cast<int>(*value);
+    }
+    if (!is_whole) return std::nullopt;
+    return index;
+  }
+
+  /// Keeps i, j, k of a row; false after a refusal.
+  bool take_index_of(std::size_t cell, bool is_new) {
+    const std::optional<CellIndex> index = index_of_row();
+    if (is_new) points_.indices.push_back(index.value_or(CellIndex{}));
+    if (!index) return false;
+    const auto [i, j, k] = *index;
+    const std::string text = concat("i = ", i, ", j = ", j, ", k = ", k);
+    if (is_new ? indices_.insert(*index).second : points_.indices[cell] == *index) return true;
+    if (is_new) {
+      reader_.refuse("the cell " + text + " is there twice, at two places",
+                     "give each i, j, k one place");
+    } else {
+      reader_.refuse("the cell has " + text + ", and others in a line before",
+                     "give a place the same i, j and k at every date");
+    }
+    return false;
   }
 
   /// In the long form a cell can be missing at a date.
@@ -288,12 +360,15 @@ class FlowTable {
   std::array<std::optional<std::size_t>, 6> column_;  ///< of kPlaceColumns.
   bool is_upwards_ = false;                           ///< the column of depth is z.
   std::vector<std::size_t> value_columns_;
+  std::array<std::optional<std::size_t>, 3> index_column_;  ///< of kIndexColumns.
+  std::vector<std::size_t> not_used_;                       ///< columns.
   std::vector<std::string> notes_;
   std::vector<Report> reports_;
   std::map<double, std::size_t> report_at_;  ///< number of a date's, in the long form.
   std::size_t last_report_ = 0;              ///< of the row before.
   TablePoints points_;
   std::map<TablePoints::Place, std::size_t> numbers_;
+  std::set<CellIndex> indices_;
 };
 
 }  // namespace

@@ -151,8 +151,10 @@ FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cell
     std::vector<FlowMapping::Weight>& overlaps = mapping.weights.emplace_back();
     const double volume = cell_volume(cell.corners);
     if (overlaps_of(cell, field, search, overlaps) > (1 + kTwice) * volume) {
-      throw InputError("flow field", "flow cells lie over each other at " + where(cell),
-                       "give every place one cell, without refined parents");
+      throw InputError(
+          "flow field", "flow cells lie over each other at " + where(cell),
+          "give every place one cell, without refined parents; a table of points of a grid "
+          "whose pillars lean needs its columns i, j and k");
     }
     mapping.region.push_back(cell.region);
     mapping.part.push_back(cell.fraction * volume);

@@ -15,12 +15,17 @@ namespace faultsim {
 inline constexpr std::array<const char*, 6> kPlaceColumns{"x", "y", "depth", "dx", "dy", "dz"};
 inline constexpr std::size_t kDepthColumn = 2, kFirstSizeColumn = 3;
 
+/// Columns that say which cell of its grid a point is, in whole numbers.
+inline constexpr std::array<const char*, 3> kIndexColumns{"i", "j", "k"};
+using CellIndex = std::array<int, 3>;  ///< i, j, k.
+
 /// Points of a table. Two of them never have the same place.
 struct TablePoints {
   using Place = std::array<double, 6>;  ///< as kPlaceColumns, m; 0 where there is no such column.
   std::array<bool, 6> has_column = {};  ///< x and y are there.
   std::vector<Place> places;
-  std::vector<int> lines;  ///< of the table, where each stands first.
+  std::vector<CellIndex> indices;  ///< of each; empty: not known. None twice.
+  std::vector<int> lines;          ///< of the table, where each stands first.
 };
 
 /// The cells that points stand for.
@@ -31,7 +36,11 @@ struct PointCells {
   std::vector<std::string> notes;  ///< as FlowField::notes.
 };
 
-/// Sizes that are given are taken, and others found:
+/// With i, j, k and depths, and where points follow each other down sloping lines, cells are
+/// hexahedra between the centres beside them (indexed_columns(), followed_columns(),
+/// cells_of_columns()), dx and dy are not used but across a single row, and dz is the thickness.
+/// That is not so where dx, dy and dz are there and boxes of these sizes do not lie over each
+/// other. Else sizes that are given are taken, and others found:
 ///
 ///   x, y   of a regular grid along x and y (regular_cells()), else of one with uneven lines
 ///          (uneven_cells()), if at least a quarter of its places has points; else every column of
@@ -42,6 +51,8 @@ struct PointCells {
 ///
 /// What cannot be told is refused with the line where that is seen: a single value of a coordinate,
 /// points on one line in the plan, no two points above each other. Then there are no cells.
+///
+/// @param points  of those with i, j, k each triple once.
 PointCells point_cells(const TablePoints& points, TableReader& reader);
 
 }  // namespace faultsim

@@ -163,4 +163,9 @@ std::vector<Reach> uneven_cells(const std::vector<int>& line, const std::vector<
   return all;
 }
 
+std::vector<Reach> touching_cells(const std::vector<double>& centre) {
+  const std::vector<Reach> reach = side_by_side(centre);
+  return reach.empty() ? half_way(centre) : reach;
+}
+
 }  // namespace faultsim

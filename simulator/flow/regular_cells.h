@@ -40,4 +40,9 @@ CellReach regular_cells(const std::vector<int>& line, const std::vector<double>&
 std::vector<std::array<double, 2>> uneven_cells(const std::vector<int>& line,
                                                 const std::vector<double>& at);
 
+/// The reach of cells of one line that lie side by side, as uneven_cells() finds it, where there
+/// are no holes between them.
+/// @param centre  at least two, ascending.
+std::vector<std::array<double, 2>> touching_cells(const std::vector<double>& centre);
+
 }  // namespace faultsim
