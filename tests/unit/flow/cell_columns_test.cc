@@ -135,7 +135,7 @@ TEST(CellColumns, OfANarrowHorstKeepTheirDepth) {
   const FlowField field = read(cells, kIndexed, index_of);
   const FlowMapping mapping =
       map_flow(field, {{.corners = cells[3 + 2 * 8 + 48].corners, .region = 0}}, {"horst"},
-               OutsideRule::unchanged);
+               {.outside = OutsideRule::unchanged});
   EXPECT_GT(mapping.covered[0], 0.7);
 }
 
@@ -149,8 +149,8 @@ TEST(CellColumns, ShareTheirFacesWhereLayersAreCurved) {
   for (const Cell& cell : cells) {
     const auto& [i, j, k] = cell.index;
     if (i == 1 || i == 8 || j == 1 || j == 6 || k == 1 || k == 4) continue;
-    const FlowMapping mapping =
-        map_flow(field, {{.corners = cell.corners, .region = 0}}, {"in"}, OutsideRule::unchanged);
+    const FlowMapping mapping = map_flow(field, {{.corners = cell.corners, .region = 0}}, {"in"},
+                                         {.outside = OutsideRule::unchanged});
     sum += cell_volume(cell.corners);
     within += mapping.coverage[0].covered;
   }
@@ -243,7 +243,7 @@ Share share_of(const FlowField& field, const std::vector<Cell>& cells, const Ind
     const auto& [i, j, k] = cells[c].index;
     if (i == 1 || i == size[0] || j == 1 || j == size[1]) continue;
     const FlowMapping mapping = map_flow(field, {{.corners = cells[c].corners, .region = 0}},
-                                         {"in"}, OutsideRule::unchanged);
+                                         {"in"}, {.outside = OutsideRule::unchanged});
     for (const auto& weight : mapping.weights[0]) {
       if (std::lround(field.value(weight.flow_cell, 0) / 1e5) == static_cast<long>(c))
         share.own += weight.value;
