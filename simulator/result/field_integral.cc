@@ -95,10 +95,10 @@ nlohmann::json field_integrals_to_json(const std::vector<FieldIntegral>& integra
            {"integral_of_flow_cells", one.has},
            {"assumed_share", one.assumed_share()}};
     if (!one.whole) continue;
-    row["integral_of_flow_grid"] = one.whole->flow_grid;
-    row["integral_mapped"] = one.whole->mapped;
-    row["largest_scaling"] = one.whole->largest_scaling;
-    row["flow_volume_m3"] = one.whole->flow_volume;
+    row["flow_grid"] = {{"integral", one.whole->flow_grid},
+                        {"integral_without_scaling", one.whole->mapped},
+                        {"largest_scaling", one.whole->largest_scaling},
+                        {"volume_m3", one.whole->flow_volume}};
   }
   return rows;
 }

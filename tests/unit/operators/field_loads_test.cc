@@ -516,8 +516,8 @@ TEST_F(FieldLoadsTest, KeepTheIntegralOfTheFlowGrid) {
   EXPECT_THAT(field_integrals_to_text(loads.integrals),
               testing::HasSubstr("bar m3, is that of its flow cells ("));
   EXPECT_THAT(field_integrals_to_text(loads.integrals, true), testing::HasSubstr(" bar m3/m, is "));
-  const json row = field_integrals_to_json(loads.integrals)[0];
-  EXPECT_EQ(row["integral_of_flow_grid"], loads.integrals[0].whole->flow_grid);
+  const json row = field_integrals_to_json(loads.integrals)[0]["flow_grid"];
+  EXPECT_EQ(row["integral"], loads.integrals[0].whole->flow_grid);
   EXPECT_EQ(row["largest_scaling"], loads.integrals[0].whole->largest_scaling);
 }
 

@@ -235,7 +235,7 @@ TEST(ResultJson, SchemaRefusesWhatIsMissingUnknownOrOfAnotherType) {
 void expect_described(const json& node, const std::string& where) {
   if (node.contains("properties")) {
     std::size_t n = node.at("properties").size();
-    for (const char* added : {"initial_state", "field_integrals", "pressure_from"})
+    for (const char* added : {"initial_state", "field_integrals", "pressure_from", "flow_grid"})
       n -= node.at("properties").count(added);
     EXPECT_EQ(n, node.at("required").size()) << where;
     const bool has_measures = where == "/definitions/stage" || where == "/definitions/fault_stage";
