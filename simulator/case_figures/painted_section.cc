@@ -80,8 +80,10 @@ bool is_painted(const CasePicture& picture) {
 void hold_all(const SectionPressures& pressures, const CaseResult& result, double unit,
               figure::FaceColours& colours) {
   for (std::size_t k = 0; k < n_steps_of(result); ++k) {
-    for (std::size_t b = 0; b < pressures.n_blocks(); ++b)
+    for (std::size_t b = 0; b < pressures.n_blocks(); ++b) {
+      if (!pressures.reaches(b)) continue;
       for (const double change : pressures.at(b, result.steps[k].time)) colours.hold(change / unit);
+    }
   }
 }
 
@@ -101,6 +103,8 @@ std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace
                                   const SectionPressures& pressures, bool has_original) {
   const FlowLoad& load = painted_load(picture.scene);
   const Quantity quantity = quantity_of(picture);
+  if (pressures.n_all() == 0)
+    return {concat("nothing is painted: no block reaches y = ", metres(place.y), place.why)};
   if (pressures.n_covered() == 0) {
     return {concat("nothing is painted: the flow grid does not reach the reservoirs at y = ",
                    metres(place.y), place.why)};
@@ -111,6 +115,8 @@ std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace
              date_text(since), " (negative: it fell), at y = ", metres(place.y), place.why),
       concat("means over pieces of at most ", plain_number(pressures.width()), " m × ",
              plain_number(pressures.height()), " m; ", same_scale_words(picture, has_original))};
+  if (load.integral == IntegralRule::flow_grid)
+    words.emplace_back("before they are scaled to the integrals of the flow grid, as what acts is");
   if (const std::string ended = ended_words(picture.scene, pressures); !ended.empty())
     words.push_back(ended);
   if (pressures.n_covered() < pressures.n_all()) {

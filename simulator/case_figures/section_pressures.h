@@ -16,7 +16,8 @@ const FlowLoad& painted_load(const Scene& scene);
 
 /// By how much the pressures of a flow result, or its temperatures where a scene has a field of
 /// those alone, have changed in the reservoirs of a section across a field, as the simulation takes
-/// them: conservative means over pieces of the section (map_flow, mapped_change), linear in time
+/// them, before integrals are kept (keep_integrals): conservative means over pieces of the section
+/// (map_flow, mapped_change), linear in time
 /// between the reports that the scene takes. Each reservoir is cut into the same number of columns
 /// and rows, at most kMostPieces.
 class SectionPressures {

@@ -47,7 +47,8 @@ std::vector<Sums> sums_at(const FlowMapping& mapping, const FlowField& field, in
 }
 
 /// @throws InputError for all compartments whose integrals are not those of one field.
-std::vector<IntegralBalance> balances(const std::vector<std::vector<Sums>>& of_report,
+std::vector<IntegralBalance> balances(const FlowMapping& mapping,
+                                      const std::vector<std::vector<Sums>>& of_report,
                                       const std::vector<std::string>& region_names) {
   std::vector<IntegralBalance> balance;
   std::vector<Problem> problems;
@@ -62,11 +63,19 @@ std::vector<IntegralBalance> balances(const std::vector<std::vector<Sums>>& of_r
                        .mapped = last.mapped,
                        .largest_scaling = size > 0 ? off / size : 0});
     if (off <= 0.5 * size || off == 0) continue;
+    const bool has_none = mapping.flow_cells[r].empty();
+    if (has_none) {
+      problems.push_back({"", 0,
+                          "no flow cell counts with " + region_names[r] +
+                              ", which takes changes from beside it: no integral can be kept",
+                          "leave \"integral\" out, or say \"outside\": \"unchanged\""});
+      continue;
+    }
     problems.push_back(
         {"", 0,
-         formatted("the integral of its change over the flow cells that count with %s is up to "
-                   "%.3g times that over the compartment",
-                   region_names[r].c_str(), 1 + off / size),
+         formatted("the integrals of its change over %s and over the flow cells that count with it "
+                   "differ by up to %.3g times the former",
+                   region_names[r].c_str(), off / size),
          "check the place of the compartment; flow cells far from it count with it too by "
          "\"integral\": \"flow_grid\": leave that out where the model is a part of the field"});
   }
@@ -126,7 +135,7 @@ std::vector<IntegralBalance> keep_integrals(const FlowMapping& mapping, const Fl
   for (std::size_t t = 0; t < reports.size(); ++t)
     of_report.push_back(
         sums_at(mapping, field, reference, reports[t], change.col(static_cast<Eigen::Index>(t))));
-  const std::vector<IntegralBalance> balance = balances(of_report, region_names);
+  const std::vector<IntegralBalance> balance = balances(mapping, of_report, region_names);
   std::vector<double> volume(mapping.flow_cells.size());
   for (std::size_t c = 0; c < mapping.part.size(); ++c)
     volume[static_cast<std::size_t>(mapping.region[c])] += mapping.part[c];

@@ -51,6 +51,7 @@ class LevelCut {
  private:
   void cut(const DrawnSurface& surface, const std::array<int, 3>& triangle, double z);
   void join(const CutPlace& a, const CutPlace& b) {
+    if (a == b || contains(next_[a], b)) return;  // without area, or there twice
     next_[a].push_back(b);
     next_[b].push_back(a);
   }
@@ -159,10 +160,12 @@ class LineDrawer {
   }
   std::string depth_of(double z) const { return "at a depth of " + decimal(-z, 1) + " m"; }
   void take_range();
+  void take_given(const std::vector<Vector2d>& trace);
   void take_trace();
   std::vector<double> depths() const;
   void take_profiles();
   std::vector<double> hits(const std::vector<LevelLine>& lines, std::size_t point, double z) const;
+  std::optional<double> prolonged_shift(std::size_t point, double z) const;
   bool take_depth(double z);
   void face_right();
 
@@ -208,6 +211,18 @@ void LineDrawer::take_trace() {
                            map_place(lines[1].front())),
                     "close its holes, part it in faults, or give a trace");
   made_.trace = evenly(lines[0], cell_);
+}
+
+/// Points at one place count once, as where traces meet.
+void LineDrawer::take_given(const std::vector<Vector2d>& trace) {
+  constexpr double kSamePlace = 1e-6;  // of a cell
+  LevelLine line;
+  for (const Vector2d& at : trace)
+    if (line.empty() || (at - line.back()).norm() > kSamePlace * cell_) line.push_back(at);
+  if (line.size() < 2)
+    return complain("is given a trace that has no length",
+                    "give it two points or more, or leave it out");
+  made_.trace = with_points_between(line, cell_);
 }
 
 /// At the depth of traces, and from there a cell apart; at its ends a little inside.
@@ -266,6 +281,16 @@ std::vector<double> LineDrawer::hits(const std::vector<LevelLine>& lines, std::s
   return here(mapped(lines, [&](const LevelLine& line) { return prolonged(line, cell_); }));
 }
 
+/// Where the surface does not reach a depth, a profile that is known nearer to the trace goes on
+/// straight.
+std::optional<double> LineDrawer::prolonged_shift(std::size_t point, double z) const {
+  DipProfile known = made_.profiles[point];
+  if (known.size() < 2) return std::nullopt;
+  std::ranges::sort(known, {}, [&](const DipPoint& one) { return std::abs(one.z - z); });
+  const double slope = (known[0].shift - known[1].shift) / (known[0].z - known[1].z);
+  return known[0].shift + slope * (z - known[0].z);
+}
+
 /// Adds a point to all profiles. @returns false where the surface folds back, or is not at the
 /// trace.
 bool LineDrawer::take_depth(double z) {
@@ -287,6 +312,12 @@ bool LineDrawer::take_depth(double z) {
     complain("is nowhere near the trace that is given", "leave the trace out, or draw it on it");
   if (!is_reached) return z != trace_depth_;
   for (std::size_t k = 0; k < shifts.size(); ++k) {
+    if (!shifts[k]) {
+      if (const std::optional<double> straight = prolonged_shift(k, z)) {
+        made_.profiles[k].push_back({z, *straight});
+        continue;
+      }
+    }
     std::size_t nearest = k;
     for (std::size_t away = 0; !shifts[nearest]; ++away)
       nearest = k >= away && shifts[k - away] ? k - away : std::min(k + away, shifts.size() - 1);
@@ -333,7 +364,7 @@ SurfaceLines LineDrawer::run(const std::vector<Vector2d>& trace) {
   take_range();
   if (problems_.size() > n_before) return std::move(made_);
   if (trace.empty()) take_trace();
-  if (!trace.empty()) made_.trace = with_points_between(trace, cell_);
+  if (!trace.empty()) take_given(trace);
   if (problems_.size() > n_before) return std::move(made_);
   take_profiles();
   if (problems_.size() == n_before && trace.empty()) face_right();

@@ -35,8 +35,8 @@ struct SurfaceLines {
 /// The line of a surface at the depth of traces, with points at about the distance `cell`, such
 /// that it dips to the right of it (a vertical one: to larger y, then x), and lines down the
 /// surface from its points: where the vertical plane across the trace cuts it, at depths `cell`
-/// apart. At depths where the surface does not reach as far as the trace, shifts are those of the
-/// nearest point that it reaches.
+/// apart. At depths where the surface does not reach a point of the trace, its line goes on
+/// straight; where it has none yet, shifts are those of the nearest point that has one.
 ///
 /// Appended to problems, all with place: a surface that the depth of traces does not cut, or in
 /// several lines, or in a ring; that is less than a cell long there, or down; that lies in two

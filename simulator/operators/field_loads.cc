@@ -150,7 +150,7 @@ Eigen::MatrixXd change_at(const MappedField& field, const std::vector<double>& t
 /// Of every compartment; none of a field that is not there.
 std::vector<FieldIntegral> integrals_of(const MappedField& field, const InfluenceBlock& block) {
   std::vector<FieldIntegral> integrals;
-  const auto& [mapping, change, balance] = field.mapped;
+  const auto& [mapping, change, means, balance] = field.mapped;
   for (std::size_t r = 0; field.load.is_given() && r < block.region_names.size(); ++r) {
     const RegionCoverage& region = mapping.coverage[r];
     FieldIntegral& one = integrals.emplace_back();
@@ -176,7 +176,7 @@ std::vector<FieldIntegral> integrals_of(const MappedField& field, const Influenc
     one.volume += part;
     one.covered += covered;
     one.acts += part * last;
-    one.has += covered * last;
+    one.has += covered * means[static_cast<Eigen::Index>(c)];
     one.size += part * std::abs(last);
     one.assumed += (part - covered) * std::abs(last);
   }

@@ -36,7 +36,7 @@ struct FieldCells {
 /// for compartments. Neither strength nor friction is looked at, so that samples of them share it;
 /// what is looked at is told by field_loads_key().
 /// @pre the scene has a flow result; in a half domain it is symmetric about y = 0.
-/// @throws InputError as map_flow() does.
+/// @throws InputError as map_load() does.
 FieldLoads field_loads(const Scene& scene, const FieldCells& cells, int n_threads = 1);
 
 /// Scenes of one operator with the same key have the same field loads.

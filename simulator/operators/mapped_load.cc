@@ -20,6 +20,7 @@ MappedLoad map_load(const FlowLoad& load, const Mesh& mesh, const std::vector<Ce
   const std::shared_ptr<const FlowField> field = field_in_scene(load);
   MappedLoad mapped{.mapping = map_flow(*field, bodies, region_names, rules)};
   mapped.change = mapped_change(mapped.mapping, *field, load.reference, load.reports);
+  mapped.means = mapped.change.rightCols(1);
   if (load.integral == IntegralRule::flow_grid)
     mapped.balance = keep_integrals(mapped.mapping, *field, load.reference, load.reports,
                                     region_names, mapped.change);

@@ -21,6 +21,7 @@ struct MappedLoad {
   FlowMapping mapping = {};
   Eigen::MatrixXd change =
       {};  ///< in the compartment's part of a cell, Pa or K, n_cells x n_reports.
+  Eigen::VectorXd means = {};  ///< of it at the last report, before integrals were kept.
   std::vector<IntegralBalance> balance = {};  ///< per compartment; none of IntegralRule::mapped.
 };
 

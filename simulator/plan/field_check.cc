@@ -8,6 +8,7 @@
 
 #include "simulator/common/dates.h"
 #include "simulator/common/text.h"
+#include "simulator/flow/whole_cells.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/plan/field_bodies.h"
 
@@ -68,6 +69,7 @@ class FieldChecker {
         there_(field_in_scene(load)),
         names_(region_names(scene)) {
     bodies_ = field_bodies(scene, plan, load.y);
+    if (plan.plane_strain) y_range_ = {load.y - kHalfSection, load.y + kHalfSection};
     for (const Fault& fault : scene.faults) names_.push_back(fault.name);
   }
 
@@ -122,11 +124,11 @@ class FieldChecker {
       const std::string what = concat("covers ", percent(region), " of the volume of ", name(r));
       if (load_.outside_given || region.covered >= kLeastCovered * region.volume) {
         remark(concat(what, "; the rest ",
+                      load_.outside == OutsideRule::nearest ? "takes what the nearest flow cell has"
+                                                            : "does not change",
                       load_.integral == IntegralRule::flow_grid
-                          ? "takes what is beside it, and the integral stays that of the flow cells"
-                      : load_.outside == OutsideRule::nearest
-                          ? "takes what the nearest flow cell has"
-                          : "does not change"));
+                          ? ", and the integral stays that of the flow cells"
+                          : ""));
         continue;
       }
       is_enough = false;
@@ -141,11 +143,11 @@ class FieldChecker {
   /// How much of the flow grid counts with compartments that it does not lie in.
   void say_beside() {
     double flow = 0, within = 0;
-    for (const FlowCell& cell : there_->cells) flow += flow_cell_volume(cell);
+    for (const FlowCell& cell : there_->cells) flow += volume_between(cell, y_range_);
     for (int r = 0; r < n_regions(); ++r) within += part(r).covered;
     found_.notes.push_back(concat(
         at_.substr(1), formatted(": %.4g %% of the volume of its cells", 100 * within / flow),
-        " lie in compartments, the others count with the nearest one (\"integral\")"));
+        " lies in compartments, the others count with the nearest one (\"integral\")"));
   }
 
   void nothing_covered() {
@@ -261,7 +263,8 @@ class FieldChecker {
   FieldCheck& found_;
   std::shared_ptr<const FlowField> there_;
   std::vector<MappedCell> bodies_;
-  std::vector<std::string> names_;  ///< of their regions.
+  std::array<double, 2> y_range_ = MappingRules{}.y_range;  ///< what of the flow cells is there, m.
+  std::vector<std::string> names_;                          ///< of their regions.
   FlowMapping mapping_;
 };
 

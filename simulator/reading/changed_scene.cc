@@ -91,7 +91,9 @@ unsigned sections_of(const Touched& touched, const ChangedScene& changed) {
   const json* const kind = value_at(changed.document.value, "/geometry/kind");
   const bool is_of_traces = kind != nullptr && *kind == "horizons" &&
                             ((sections & kGeometry) != 0 || moves_faults(touched));
-  if (is_of_traces) return kAll;
+  // Intervals of a surface over an offset depend on how far faults reach.
+  const bool moves_intervals = asks_for_surface(changed.document.value) && moves_faults(touched);
+  if (is_of_traces || moves_intervals) return kAll;
   const bool is_small = (sections & ~unsigned{kInitialState | kFaults}) == 0;
   return is_mixed && !is_small ? unsigned{kAll} : sections;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -67,6 +68,7 @@ class GocadReader {
   std::optional<int> number_at(const std::vector<std::string_view>& words, std::size_t at,
                                int line);
   const GocadSurface& chosen(const std::string& fault);
+  void read_sense(std::string_view sense, int line);
   void refuse(int line, const std::string& what, const std::string& cure);
   void require_sound() const {
     if (!problems_.empty()) throw InputError(given_, problems_);
@@ -96,10 +98,22 @@ void GocadReader::read_line(std::string_view line, int number) {
   if (words[0].starts_with("HEADER")) is_in_header_ = true;
   if (is_in_header_) return read_header(line);
   if (words[0] == "AXIS_UNIT") return read_units(words, number);
-  if (words[0] == "ZPOSITIVE" && words.size() > 1) all_.back().is_depth = words[1] == "Depth";
+  if (words[0] == "ZPOSITIVE" && words.size() > 1) return read_sense(words[1], number);
   if (words[0] == "VRTX" || words[0] == "PVRTX") return read_node(words, number);
   if (words[0] == "ATOM" || words[0] == "PATOM") return read_copy(words, number);
   if (words[0] == "TRGL") return read_triangle(words, number);
+}
+
+void GocadReader::read_sense(std::string_view sense, int line) {
+  const auto is = [&](std::string_view word) {
+    return std::ranges::equal(sense, word, [](char a, char b) {
+      return std::tolower(static_cast<unsigned char>(a)) == b;
+    });
+  };
+  all_.back().is_depth = is("depth");
+  if (!is("depth") && !is("elevation"))
+    refuse(line, "the sense " + table_quote(std::string(sense)) + " of ZPOSITIVE is not known",
+           "write Depth or Elevation");
 }
 
 /// "HEADER { name:F1 }", on one line or on several.
@@ -182,6 +196,11 @@ void GocadReader::read_triangle(const std::vector<std::string_view>& words, int 
 const GocadSurface& GocadReader::chosen(const std::string& fault) {
   if (all_.size() == 1) return all_[0];
   const auto found = std::ranges::find(all_, fault, &GocadSurface::name);
+  if (std::ranges::count(all_, fault, &GocadSurface::name) > 1) {
+    refuse(0, "has several surfaces of the name " + table_quote(fault),
+           "join them in one TSurf, or give each fault its own");
+    require_sound();
+  }
   if (found != all_.end()) return *found;
   std::string names;
   for (const GocadSurface& one : all_) names += (names.empty() ? "" : ", ") + table_quote(one.name);

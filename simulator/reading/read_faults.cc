@@ -242,7 +242,7 @@ void read_dip_list(SceneReader& reader, const std::string& pointer, Fault& fault
   const nlohmann::json* given = reader.find(pointer);
   if (given == nullptr || !given->is_array()) return;
   fault.dip_from_vertical = 0;
-  if (is_of_horizons(reader) || !reader.sound(pointer)) return;
+  if (is_of_horizons(reader) || is_of_mesh(reader) || !reader.sound(pointer)) return;
   reader.problem(pointer, "a fault of this body has one dip", "write one value");
 }
 

@@ -11,6 +11,7 @@
 #include "simulator/horizons/drawn_surface.h"
 #include "simulator/horizons/traces.h"
 #include "simulator/reading/csv_tables.h"
+#include "simulator/reading/fault_places.h"
 #include "simulator/reading/fault_surface.h"
 #include "simulator/reading/horizon_csv.h"
 #include "simulator/reading/read_body.h"
@@ -221,7 +222,13 @@ void BodyReader::read_fault_surface(const std::string& at, LayeredFault& fault) 
   } catch (const InputError& error) {
     return reader_.table_problems(pointer, name, error);
   }
-  if (!(body_.cells.at_faults > 0) || !reader_.sound("/geometry") || !reader_.sound(at)) return;
+  // Strengths do not matter here: a body is built where places are sound.
+  const auto is_sound = [&](std::string_view key) {
+    return reader_.sound(at + "/" + std::string(key));
+  };
+  if (!(body_.cells.at_faults > 0) || !reader_.sound("/geometry") || !is_sound("name") ||
+      !std::ranges::all_of(place_keys("horizons"), is_sound))
+    return;
   std::vector<Problem> problems;
   const horizons::SurfaceLines lines =
       horizons::lines_of(surface, fault.trace, body_.trace_depth, body_.cells.at_faults, pointer,

@@ -200,7 +200,8 @@ TEST(WholeCells, RefuseGridsThatDoNotBelongTogether) {
   EXPECT_THAT(([&] {
                 keep_integrals(mapping, field, 0, {0, 1, 2}, kSides, change);
               }),
-              ThrowsMessage<InputError>(HasSubstr("over the flow cells that count with west is ")));
+              ThrowsMessage<InputError>(
+                  HasSubstr("over west and over the flow cells that count with it differ by ")));
 }
 
 }  // namespace

@@ -136,6 +136,46 @@ TEST(DrawnSurface, ATraceOfOnesOwnTakesHowItGoesDown) {
   EXPECT_NEAR(shift(lines, 5, -2800), -400, 1e-6) << "to the left";
 }
 
+TEST(DrawnSurface, PointsOfATraceThatAreThereTwiceCountOnce) {
+  const DrawnSurface plane = triangulated(-2900, -1300, on_plane);
+  const SurfaceLines once = drawn(plane, {{0, -1000}, {0, 0}, {0, 1000}});
+  const SurfaceLines twice = drawn(plane, {{0, -1000}, {0, 0}, {0, 0}, {0, 1000}});
+  ASSERT_EQ(twice.trace, once.trace);
+  for (std::size_t k = 0; k < once.trace.size(); ++k)
+    EXPECT_EQ(shift(twice, k, -2800), shift(once, k, -2800)) << k;
+  EXPECT_THAT(refused(plane, {{0, 10}, {0, 10}}), HasSubstr("is given a trace that has no length"));
+}
+
+/// Triangles without area, or there twice, part no line.
+TEST(DrawnSurface, MayHaveTrianglesTwice) {
+  DrawnSurface plane = triangulated(-2900, -1300, on_plane);
+  const SurfaceLines before = drawn(plane);
+  const std::vector<std::array<int, 3>> all = plane.triangles;
+  for (std::size_t k = 0; k < all.size(); k += 5) {
+    plane.triangles.push_back(all[k]);
+    plane.triangles.push_back({all[k][0], all[k][0], all[k][2]});
+  }
+  EXPECT_EQ(drawn(plane).trace, before.trace);
+}
+
+/// Its dip changes along it, and its top edge goes down: above it each line goes on as it came.
+TEST(DrawnSurface, AboveATopThatIsNotLevelLinesGoOnStraight) {
+  DrawnSurface oblique = triangulated(-2900, -1300, on_plane);
+  for (Vector3d& at : oblique.points) {
+    const double u = (at.y() + 1000) / 2000, share = (at.z() + 2900) / 1600;
+    const double top = -1300 - 500 * u;
+    at.z() = -2900 + share * (top + 2900);
+    at.x() = (0.3 + 0.9 * u) * (kTraceZ - at.z());
+  }
+  const SurfaceLines lines = drawn(oblique);
+  for (const std::size_t k : {1u, 10u, 19u}) {
+    const double below = shift(lines, k, -1850) - shift(lines, k, -1950);
+    for (const double z : {-1700., -1500., -1350.})
+      EXPECT_NEAR(shift(lines, k, z - 50) - shift(lines, k, z + 50), -below, 0.25 * std::abs(below))
+          << k << " at " << z;
+  }
+}
+
 TEST(DrawnSurface, BeyondItsSidesItGoesOnAsThere) {
   // 500 m long at its base, 2,000 m at its top.
   const DrawnSurface funnel = triangulated(-2900, -1300, [](double u, double z) {

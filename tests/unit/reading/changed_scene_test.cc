@@ -123,6 +123,17 @@ TEST_P(ChangedSceneTest, AFieldHasTheExtentsOfItsFaultsAgain) {
   change({});
 }
 
+/// How far faults reach decides the intervals of a surface over an offset.
+TEST_P(ChangedSceneTest, ASurfaceHasItsIntervalsAgain) {
+  base_.value["geometry"]["blocks"][1]["offset"] = "62 m";
+  base_.value["numerics"]["surface"] = {
+      {"over", {{{"parameter", "/geometry/blocks/1/offset"}, {"from", "60 m"}, {"to", "120 m"}}}}};
+  changed_.document = base_;
+  change({{"/faults/1/overshoot", "190 m"}});
+  change({{"/faults/1/overshoot", "170 m"}});
+  change({{"/faults/1/overshoot", "170 m"}, {"/geometry/blocks/1/offset", "90 m"}});
+}
+
 TEST(ChangedScene, SaysWhatHasNoPlace) {
   const JsonDocument base = parse_json(starter_scene("field"), "field");
   ChangedScene changed;

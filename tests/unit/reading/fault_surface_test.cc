@@ -74,6 +74,10 @@ TEST(FaultSurface, ReadsATSurf) {
 TEST(FaultSurface, ZIsUpwardsUnlessItSaysDepth) {
   const std::string up = changed(kSurface, "ZPOSITIVE Depth", "ZPOSITIVE Elevation");
   EXPECT_EQ(parse_fault_surface(up, "F.ts", "F").points[0].z(), 1500);
+  const std::string loud = changed(kSurface, "ZPOSITIVE Depth", "ZPOSITIVE DEPTH");
+  EXPECT_EQ(parse_fault_surface(loud, "F.ts", "F").points[0].z(), -1500);
+  EXPECT_THAT(said(changed(kSurface, "ZPOSITIVE Depth", "ZPOSITIVE Down")),
+              HasSubstr("10: the sense \"Down\" of ZPOSITIVE is not known; write Depth or "));
   const std::string silent = changed(kSurface, "ZPOSITIVE Depth\n", "");
   EXPECT_EQ(parse_fault_surface(silent, "F.ts", "F").points[0].z(), 1500);
 }
@@ -92,6 +96,7 @@ TEST(FaultSurface, OfSeveralTheOneOfTheFaultsNameIsTaken) {
   const std::string both = kSurface + changed(other, "0 -100 1500", "7 -100 1500");
   EXPECT_EQ(parse_fault_surface(both, "all.ts", "F").points[0].x(), 7);
   EXPECT_EQ(parse_fault_surface(both, "all.ts", "Main fault").points[0].x(), 0);
+  EXPECT_THAT(said(other + other), HasSubstr("has several surfaces of the name \"F\"; join them"));
   try {
     parse_fault_surface(both, "all.ts", "G");
     ADD_FAILURE() << "there is no G";

@@ -279,6 +279,9 @@ TEST_F(SurfaceScene, WhatIsWrongIsSaidAtItsPlace) {
   JsonDocument deeper = of_surface(leaning_);
   deeper.value["geometry"]["trace_depth"] = "3 km";
   EXPECT_THAT(refusal(deeper), HasSubstr("/faults/0/surface: the surface of \"F1\" reaches from "));
+  JsonDocument weak = of_surface(leaning_);
+  weak.value["faults"][0]["friction"] = {{"friction_angle", "-3 deg"}};
+  EXPECT_THAT(refusal(weak), testing::Not(HasSubstr("/faults/0/surface")));
   JsonDocument shallow = of_surface(leaning_);
   shallow.value["geometry"]["layers"][2]["top"] = "2600 m";
   EXPECT_THAT(refusal(shallow),
