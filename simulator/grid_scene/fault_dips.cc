@@ -104,8 +104,9 @@ void take_dips(const std::vector<FaultPillar>& pillars, double reach, double ref
   ModelFault changing = fault;
   changing.trace = with_points(fault.trace, reach);
   changing.leans = means_along(pillars, reach, changing.trace);
-  if (mean_distance(pillars, changing, reference_z) < mean_distance(pillars, fault, reference_z))
-    fault = std::move(changing);
+  constexpr double kGain = 0.95;  // so that dips which are alike are one
+  const double plain = mean_distance(pillars, fault, reference_z);
+  if (mean_distance(pillars, changing, reference_z) < kGain * plain) fault = std::move(changing);
 }
 
 double mean_distance(const std::vector<FaultPillar>& pillars, const ModelFault& fault,
@@ -129,7 +130,7 @@ std::string dips_text(const std::vector<FaultPillar>& pillars, const ModelFault&
     return fault.name + " has one dip, " + taken + " degrees, the median of its pillars' (" +
            measured + "), which are " + formatted("%.0f m", away) +
            " from it at the reservoir's top and base on average: with dips that change along it "
-           "pillars would cross, or be no nearer";
+           "pillars would cross, or be hardly nearer";
   }
   ModelFault plain = fault;
   take_dips(pillars, 0, reference_z, plain);

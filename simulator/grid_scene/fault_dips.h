@@ -23,7 +23,7 @@ std::vector<FaultPillar> fault_pillars(const corner_point::CornerPointGrid& grid
 
 /// Dips along a fault: the mean lean of the pillars near each place, by a bell of half-width
 /// `reach`; the trace gets points at most a reach apart. One lean, the pillars' median, without a
-/// reach and where pillars are no nearer to the fault with more.
+/// reach and where pillars are not nearer to the fault by a twentieth with more.
 void take_dips(const std::vector<FaultPillar>& pillars, double reach, double reference_z,
                ModelFault& fault);
 
