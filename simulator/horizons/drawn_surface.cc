@@ -162,6 +162,7 @@ class LineDrawer {
   void take_range();
   void take_given(const std::vector<Vector2d>& trace);
   void take_trace();
+  double step() const;
   std::vector<double> depths() const;
   void take_profiles();
   std::vector<double> hits(const std::vector<LevelLine>& lines, std::size_t point, double z) const;
@@ -225,12 +226,16 @@ void LineDrawer::take_given(const std::vector<Vector2d>& trace) {
   made_.trace = with_points_between(line, cell_);
 }
 
-/// At the depth of traces, and from there a cell apart; at its ends a little inside.
-std::vector<double> LineDrawer::depths() const {
+/// Between depths: a cell, if that makes no more than so many.
+double LineDrawer::step() const {
   constexpr int kMost = 200;
+  return std::max(cell_, (made_.top - made_.bottom) / kMost);
+}
+
+/// At the depth of traces, and from there a step apart; at its ends a little inside.
+std::vector<double> LineDrawer::depths() const {
   constexpr double kInside = 1e-9;
-  const double height = made_.top - made_.bottom;
-  const double step = std::max(cell_, height / kMost);
+  const double height = made_.top - made_.bottom, step = this->step();
   std::vector<double> depths = {trace_depth_};
   for (const double end : {made_.top - kInside * height, made_.bottom + kInside * height}) {
     const double way = end < trace_depth_ ? -1 : 1;
@@ -312,7 +317,11 @@ bool LineDrawer::take_depth(double z) {
     complain("is nowhere near the trace that is given", "leave the trace out, or draw it on it");
   if (!is_reached) return z != trace_depth_;
   for (std::size_t k = 0; k < shifts.size(); ++k) {
-    if (!shifts[k]) {
+    if (shifts[k]) {
+      auto& [low, high] = made_.reached[k];
+      low = std::min(low, std::max(z - step(), made_.bottom));
+      high = std::max(high, std::min(z + step(), made_.top));
+    } else {
       if (const std::optional<double> straight = prolonged_shift(k, z)) {
         made_.profiles[k].push_back({z, *straight});
         continue;
@@ -335,6 +344,7 @@ void LineDrawer::take_profiles() {
   const FaultShape shape(body, bare, made_.trace);
   for (std::size_t k = 0; k < made_.trace.size(); ++k) across_.push_back(shape.across(k));
   made_.profiles.resize(made_.trace.size());
+  made_.reached.assign(made_.trace.size(), {made_.top, made_.bottom});
   for (const double z : depths())
     if (!take_depth(z)) return;
   if (made_.profiles[0].size() < 2)
@@ -355,6 +365,7 @@ void LineDrawer::face_right() {
   if (std::abs(right) < kVertical * down ? is_north : right > 0) return;
   std::ranges::reverse(made_.trace);
   std::ranges::reverse(made_.profiles);
+  std::ranges::reverse(made_.reached);
   for (DipProfile& profile : made_.profiles)
     for (DipPoint& point : profile) point.shift = -point.shift;
 }

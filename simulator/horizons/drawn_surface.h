@@ -30,6 +30,9 @@ struct SurfaceLines {
   std::vector<Eigen::Vector2d> trace;
   std::vector<DipProfile> profiles;  ///< per point of the trace.
   double top = 0, bottom = 0;        ///< z of the surface's highest and lowest point.
+  /// z, lowest and highest, to which the surface itself reaches at each point of the trace: within
+  /// what depths of profiles are apart, and no less.
+  std::vector<std::array<double, 2>> reached;
 };
 
 /// The line of a surface at the depth of traces, with points at about the distance `cell`, such

@@ -28,7 +28,9 @@ void read_field_ends(SceneReader& reader, const std::string& at, const std::stri
     reader.problem(
         at + key,
         whose + " reaches from y = " + metres(from) + " to " + metres(to) + ", which is no length",
-        "write y_to larger than y_from");
+        y_from && y_to ? std::string("write y_to larger than y_from")
+                       : concat("add ", y_to ? "y_from" : "y_to",
+                                ": without it that end is half of the common length"));
   }
   if (y_from == -half) y_from.reset();
   if (y_to == half) y_to.reset();

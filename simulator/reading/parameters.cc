@@ -206,6 +206,7 @@ bool has_rival(const json& object, const std::string& key) {
       {"tensor", "vertical_stress"},
       {"tensor", "vertical_stress_gradient"},
       {"tensor", "viscous_layers"},
+      {"surface", "listric", "dip_from_vertical"},
       {"length", "y_from"},
       {"length", "y_to"},
       {"creep_time_step", "creep_refinements"}};

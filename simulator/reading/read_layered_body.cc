@@ -1,7 +1,9 @@
 #include "simulator/reading/read_layered_body.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -67,10 +69,14 @@ class BodyReader {
   void read_cells();
   std::vector<std::size_t> reservoir_horizons() const;
   void check_reach();
+  bool refuse_within(std::size_t fault, const Vector2d& place, const std::array<double, 2>& reached,
+                     const std::array<double, 2>& reservoir);
 
   SceneReader& reader_;
   const Scene& scene_;
   BodyOfKeys result_;
+  /// Of faults with a surface, by number: SurfaceLines::reached.
+  std::map<std::size_t, std::vector<std::array<double, 2>>> reached_;
   horizons::LayeredBody& body_ = result_.body;
 };
 
@@ -237,6 +243,7 @@ void BodyReader::read_fault_surface(const std::string& at, LayeredFault& fault) 
   if (!problems.empty()) return;
   fault.trace = lines.trace;
   fault.profiles = lines.profiles;
+  reached_[body_.faults.size()] = lines.reached;
   if (!fault.top && lines.top < body_.top) fault.top = lines.top;
   if (!fault.bottom && lines.bottom > body_.base) fault.bottom = lines.bottom;
 }
@@ -285,31 +292,40 @@ std::vector<std::size_t> BodyReader::reservoir_horizons() const {
 
 /// Surfaces of faults that end within the reservoir: more likely cut off than meant.
 void BodyReader::check_reach() {
-  if (!reader_.sound("/geometry") || !reader_.sound("/faults")) return;
+  if (reached_.empty() || !reader_.sound("/geometry") || !reader_.sound("/faults")) return;
   std::vector<Problem> problems;  // said by the builder
-  for (const std::size_t h : reservoir_horizons()) {
-    std::optional<horizons::DepthSurface> horizon;
-    for (std::size_t f = 0; f < body_.faults.size() && problems.empty(); ++f) {
-      const LayeredFault& fault = body_.faults[f];
-      const std::string at = element("/faults", f);
-      if (!reader_.has(at + "/surface")) continue;
-      if (!horizon) horizon.emplace(body_.horizons[h].depth, "", problems);
-      for (const Vector2d& place : fault.trace) {
-        const double z = problems.empty() ? horizon->at(place) : kNaN;
-        const bool is_above = !reader_.has(at + "/top") && z > fault.top.value_or(body_.top);
-        const bool is_below = !reader_.has(at + "/bottom") && z < fault.bottom.value_or(body_.base);
-        if (!is_above && !is_below) continue;
-        reader_.problem(
-            at + "/surface",
-            concat("the surface of \"", fault.name, "\" ends within the reservoir: its ",
-                   is_above ? "top lies below" : "base lies above", " the ", body_.horizons[h].name,
-                   " at ", horizons::map_place(place), ", ", metres(-z), " depth"),
-            concat("give a surface that goes on, or write \"", is_above ? "top" : "bottom",
-                   "\": it goes on straight to there"));
-        break;
-      }
+  std::vector<horizons::DepthSurface> tops;
+  for (const std::size_t h : reservoir_horizons())
+    tops.emplace_back(body_.horizons[h].depth, "", problems);
+  if (tops.empty() || !problems.empty()) return;
+  for (const auto& [f, reached] : reached_) {
+    const LayeredFault& fault = body_.faults[f];
+    for (std::size_t k = 0; k < fault.trace.size(); ++k) {
+      const auto depths = mapped(tops, [&](const auto& top) { return top.at(fault.trace[k]); });
+      const auto [low, high] = std::ranges::minmax(depths);
+      if (refuse_within(f, fault.trace[k], reached[k], {low, high})) break;
     }
   }
+}
+
+/// Where a surface ends between the reservoir's base and its top, z; none of the two is said.
+bool BodyReader::refuse_within(std::size_t fault, const Vector2d& place,
+                               const std::array<double, 2>& reached,
+                               const std::array<double, 2>& reservoir) {
+  const std::string at = element("/faults", fault);
+  const auto is_within = [&](double z) { return z > reservoir[0] && z < reservoir[1]; };
+  const bool is_top = !reader_.has(at + "/top") && is_within(reached[1]),
+             is_base = !reader_.has(at + "/bottom") && is_within(reached[0]);
+  if (!is_top && !is_base) return false;
+  reader_.problem(
+      at + "/surface",
+      concat("the surface of \"", body_.faults[fault].name, "\" ends within the reservoir: at ",
+             horizons::map_place(place), " its ", is_top ? "top" : "base", " lies at ",
+             metres(-reached[is_top ? 1 : 0]), " depth, the reservoir from ", metres(-reservoir[1]),
+             " to ", metres(-reservoir[0])),
+      concat("give a surface that goes on, or write \"", is_top ? "top" : "bottom",
+             "\": it goes on straight to there"));
+  return true;
 }
 
 void BodyReader::read_cells() {

@@ -169,6 +169,10 @@ TEST(DrawnSurface, AboveATopThatIsNotLevelLinesGoOnStraight) {
   }
   const SurfaceLines lines = drawn(oblique);
   for (const std::size_t k : {1u, 10u, 19u}) {
+    const double top = -1300 - 500 * (lines.trace[k].y() + 1000) / 2000;
+    EXPECT_GE(lines.reached[k][1], top);
+    EXPECT_LT(lines.reached[k][1], top + 2.5 * kCellSize) << "with a cell beside it";
+    EXPECT_EQ(lines.reached[k][0], -2900);
     const double below = shift(lines, k, -1850) - shift(lines, k, -1950);
     for (const double z : {-1700., -1500., -1350.})
       EXPECT_NEAR(shift(lines, k, z - 50) - shift(lines, k, z + 50), -below, 0.25 * std::abs(below))
