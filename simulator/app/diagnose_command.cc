@@ -8,6 +8,7 @@
 #include "simulator/files/json_text.h"
 #include "simulator/loading/diagnosis.h"
 #include "simulator/loading/run_case.h"
+#include "simulator/simulation/inside.h"
 
 namespace faultsim {
 namespace {
@@ -103,7 +104,7 @@ ExitCode diagnose_command(const DiagnoseArguments& arguments) {
       prepare_on_screen(simulation, arguments.op, arguments.scene.json);
   SilentMonitor silent;
   const Diagnosis diagnosis =
-      diagnose_case(simulation.scene().scene, prepared, context_of(arguments.op, silent));
+      diagnose_case(Inside::scene(simulation).scene, prepared, context_of(arguments.op, silent));
   if (arguments.scene.json) {
     std::cout << json_text(to_json(diagnosis));
   } else {

@@ -12,6 +12,7 @@
 #include "simulator/files/output_target.h"
 #include "simulator/plan/combinations.h"
 #include "simulator/result_files/fclib_writer.h"
+#include "simulator/simulation/inside.h"
 
 namespace faultsim {
 namespace {
@@ -103,7 +104,7 @@ void report(const ExportArguments& arguments, const ExportedStep& exported) {
 
 ExitCode export_contact_command(const ExportArguments& arguments) {
   Simulation simulation = load_simulation(arguments.scene, arguments.op);
-  const LoadedScene& loaded = simulation.scene();
+  const LoadedScene& loaded = Inside::scene(simulation);
   require_writable_file("-o", arguments.output, FileKind::hdf5, input_files(loaded));
   std::vector<Problem> problems =
       unsupported(loaded.scene, loaded.plan, std::array{Feature::contact_problem});

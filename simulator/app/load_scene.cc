@@ -7,6 +7,7 @@
 #include "simulator/common/interrupt.h"
 #include "simulator/common/machine.h"
 #include "simulator/loading/pressure_warnings.h"
+#include "simulator/simulation/inside.h"
 
 namespace faultsim {
 namespace {
@@ -86,7 +87,7 @@ const PreparedOperator& prepare_on_screen(Simulation& simulation,
   ScreenMonitor monitor(quiet);
   simulation.prepare(context_of(arguments, monitor));
   monitor.clear();
-  return simulation.prepared();
+  return Inside::prepared(simulation);
 }
 
 }  // namespace faultsim

@@ -22,6 +22,7 @@
 #include "simulator/result/result_json.h"
 #include "simulator/result_files/field_writer.h"
 #include "simulator/result_files/volume_writer.h"
+#include "simulator/simulation/inside.h"
 
 namespace faultsim {
 namespace {
@@ -82,7 +83,7 @@ ExitCode exit_code_of(Outcome outcome) {
 ExitCode run_command(const RunArguments& arguments) {
   const SolverChoice solver = solver_of(arguments.leading, arguments.schur);
   Simulation simulation = load_simulation(arguments.scene, arguments.op, arguments.exact);
-  const LoadedScene& loaded = simulation.scene();
+  const LoadedScene& loaded = Inside::scene(simulation);
   simulation.check();
   Plan plan = loaded.plan;
   add_savings(loaded.scene, plan);
@@ -127,7 +128,7 @@ ExitCode run_command(const RunArguments& arguments) {
   } else {
     simulation.prepare(context, scene.output.volume_fields);
   }
-  const PreparedOperator prepared = is_coupled ? PreparedOperator() : simulation.prepared();
+  const PreparedOperator prepared = is_coupled ? PreparedOperator() : Inside::prepared(simulation);
   const FaultOperator& faults = is_coupled ? coupled->faults() : *prepared.op;
   monitor.clear();
   if (!json) std::cerr << prepared_text(faults, prepared.surface, prepared.from_cache, is_coupled);

@@ -25,6 +25,7 @@
 #include "simulator/result/result_bytes.h"
 #include "simulator/result_files/field_bytes.h"
 #include "simulator/scene/identity.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 
@@ -119,9 +120,9 @@ class Worker {
   void take_scene(const json& request) {
     const auto base = request.at("base").get<std::int64_t>();
     const auto source = request.value("source", "case");
-    if (base != held_) simulation_.hold_base({source, bases_.at(base), {}});
+    if (base != held_) Inside::hold_base(simulation_, {source, bases_.at(base), {}});
     held_ = base;
-    simulation_.change_values({source, request.at("changes"), {}});
+    Inside::change_values(simulation_, {source, request.at("changes"), {}});
   }
 
   /// Refuses a scene that is not the case's: its result would be stored under another's name.
@@ -129,7 +130,7 @@ class Worker {
     if (!request.contains("identity")) return;
     const auto wanted = request["identity"].get<std::string>();
     const std::string identity = simulation_.identity();
-    if (identity == wanted || has_identity(simulation_.scene().scene, wanted)) return;
+    if (identity == wanted || has_identity(Inside::scene(simulation_).scene, wanted)) return;
     throw InputError(
         request.value("source", "case"),
         concat("the scene has the identity ", identity.substr(0, 12), ", its case ",
@@ -143,7 +144,7 @@ class Worker {
       say({{"event", "building"}, {"run", run}, {"what", what}});
     });
     if (!simulation_.prepare({monitor, context_.stop, context_.n_threads})) return;
-    const PreparedOperator& prepared = simulation_.prepared();
+    const PreparedOperator& prepared = Inside::prepared(simulation_);
     const double n_jump = prepared.op->geometry.n_dofs;
     say({{"event", "operator"},
          {"run", run},
@@ -159,8 +160,8 @@ class Worker {
 
   /// The result, and after it the fields that go with it, unless a folder was given for them.
   std::string run_one(const json& request, json& reply) {
-    const FaultGeometry& geometry = simulation_.prepared().op->geometry;
-    const Scene& scene = simulation_.scene().scene;
+    const FaultGeometry& geometry = Inside::prepared(simulation_).op->geometry;
+    const Scene& scene = Inside::scene(simulation_).scene;
     const json wanted = request.value("fields", json());
     std::optional<FieldKeeper> files;
     std::optional<FieldSelection> selection;
@@ -168,7 +169,7 @@ class Worker {
     RunWatch watch;
     if (wanted.contains("folder")) {
       files.emplace(wanted["folder"].get<std::string>(), steps_of(wanted), scene, geometry,
-                    simulation_.scene().plan.creep.active);
+                    Inside::scene(simulation_).plan.creep.active);
       watch.step = [&](const StepResult& step, const FaultFields& f) { files->add(step, f); };
     } else if (!wanted.is_null()) {
       in_line.emplace(geometry);

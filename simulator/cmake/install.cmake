@@ -29,8 +29,8 @@ target_include_directories(faultsim_simulation INTERFACE
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/faultsim>)
 target_compile_features(faultsim_simulation INTERFACE cxx_std_20)
 install(FILES simulator/simulation/simulation.h COMPONENT library DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/faultsim)
-foreach(header common/errors common/words common/run_context common/units contact/search_record cache/cache_policy loading/run_watch result/field
-        result/measures result/result)
+foreach(header common/errors common/words common/run_context common/units contact/search_record cache/cache_policy loading/run_watch model/fault_geometry
+        model/fault_profile result/field result/measures result/result)
   get_filename_component(module ${header} DIRECTORY)
   install(FILES simulator/${header}.h COMPONENT library
           DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/faultsim/simulator/${module})

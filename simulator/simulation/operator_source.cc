@@ -53,6 +53,12 @@ bool OperatorSource::has_cells(const LoadedScene& loaded, bool keep_bulk) const 
   return cells_.key == operator_key(loaded) && (cells_.prepared.bulk || !keep_bulk);
 }
 
+OperatorSource OperatorSource::for_another_thread() const {
+  OperatorSource other = *this;
+  if (cells_.prepared.bulk) other.cells_ = {};
+  return other;
+}
+
 bool OperatorSource::is_at_hand(const LoadedScene& loaded, bool keep_bulk) const {
   const Scene& scene = loaded.scene;
   if (scene.numerics.surface.wanted()) {

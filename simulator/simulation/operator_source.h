@@ -29,6 +29,8 @@ class OperatorSource {
   /// @param keep_bulk  with factors, for displacements of the whole mesh.
   Made prepare(const LoadedScene& loaded, const CachePolicy& cache, bool keep_bulk,
                const RunContext& context);
+  /// One that has what this has, but for factors, which one thread uses at a time.
+  OperatorSource for_another_thread() const;
 
  private:
   /// The loads of one field, and what is to be said of it.

@@ -9,6 +9,7 @@
 #include "simulator/loading/pressure_warnings.h"
 #include "simulator/loading/run_case.h"
 #include "simulator/reading/read_scene.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/operator_build.h"
 #include "simulator/simulation/operator_source.h"
@@ -108,7 +109,7 @@ Simulation Simulation::from_file(const std::string& file, const Changes& changes
   JsonDocument document = read_scene_file(file, changes);
   if (exact && value_at(document.value, "/numerics/surface") != nullptr)
     put_value(document.value, "/numerics/surface/exact", true);
-  simulation.hold(std::move(document));
+  Inside::hold(simulation, std::move(document));
   LoadedScene& loaded = simulation.impl_->at_hand;
   loaded.plan.warnings = pressure_warnings(loaded.scene);
   return simulation;
@@ -116,23 +117,48 @@ Simulation Simulation::from_file(const std::string& file, const Changes& changes
 
 Simulation Simulation::from_text(std::string_view text, const std::string& source) {
   Simulation simulation;
-  simulation.hold(parse_json(text, source));
+  simulation.hold_text(text, source);
   return simulation;
+}
+
+Simulation Simulation::twin() const {
+  const Impl& self = *impl_;
+  Simulation other;
+  Impl& its = *other.impl_;
+  its.held = self.held;
+  its.at_hand = self.at_hand;
+  its.at_hand.is_of_base = false;
+  its.key = self.key;
+  its.cache = self.cache;
+  if (!self.build) *its.operators = self.operators->for_another_thread();
+  const bool is_constant = !self.prepared.bulk && !self.prepared.surface;
+  if (!needs_operator() && is_constant) {
+    its.prepared = self.prepared;
+    its.prepared_key = self.prepared_key;
+  }
+  return other;
 }
 
 void Simulation::keep_operators(const CachePolicy& policy) { impl_->cache = policy; }
 
-void Simulation::hold(JsonDocument document) { hold(load_scene(std::move(document))); }
-
-void Simulation::hold(LoadedScene loaded) {
-  impl_->take(std::move(loaded));
-  impl_->held.reset();
+void Simulation::hold_text(std::string_view text, const std::string& source) {
+  Inside::hold(*this, parse_json(text, source));
 }
 
-void Simulation::hold_base(JsonDocument document) {
-  impl_->held = std::move(document);
-  impl_->at_hand.is_of_base = false;
-  impl_->aliases.clear();
+void Inside::hold(Simulation& simulation, JsonDocument document) {
+  hold(simulation, load_scene(std::move(document)));
+}
+
+void Inside::hold(Simulation& simulation, LoadedScene loaded) {
+  simulation.impl_->take(std::move(loaded));
+  simulation.impl_->held.reset();
+}
+
+void Inside::hold_base(Simulation& simulation, JsonDocument document) {
+  Simulation::Impl& self = *simulation.impl_;
+  self.held = std::move(document);
+  self.at_hand.is_of_base = false;
+  self.aliases.clear();
 }
 
 void Simulation::change(const Changes& changes) {
@@ -149,8 +175,8 @@ void Simulation::change(const Changes& changes) {
   self.at_hand.is_of_base = false;
 }
 
-void Simulation::change_values(const JsonDocument& values) {
-  Impl& self = *impl_;
+void Inside::change_values(Simulation& simulation, const JsonDocument& values) {
+  Simulation::Impl& self = *simulation.impl_;
   self.keep();
   Values all;
   json document = self.held->value;
@@ -162,7 +188,7 @@ void Simulation::change_values(const JsonDocument& values) {
   }
 }
 
-const LoadedScene& Simulation::scene() const { return impl_->at_hand; }
+const LoadedScene& Inside::scene(const Simulation& simulation) { return simulation.impl_->at_hand; }
 
 void Simulation::check() { check_geometry(impl_->at_hand); }
 
@@ -199,13 +225,18 @@ bool Simulation::prepare(const RunContext& context, bool keep_bulk) {
   return made.is_new;
 }
 
-const PreparedOperator& Simulation::prepared() const {
-  FAULTSIM_DEMAND(!needs_operator(), "no operator for the scene at hand");
-  return impl_->prepared;
+const PreparedOperator& Inside::prepared(const Simulation& simulation) {
+  FAULTSIM_DEMAND(!simulation.needs_operator(), "no operator for the scene at hand");
+  return simulation.impl_->prepared;
+}
+
+std::shared_ptr<const FaultGeometry> Simulation::geometry() const {
+  const std::shared_ptr<const FaultOperator>& op = Inside::prepared(*this).op;
+  return {op, &op->geometry};
 }
 
 std::vector<FaultPoint> Simulation::points() const {
-  const FaultGeometry& geometry = prepared().op->geometry;
+  const FaultGeometry& geometry = Inside::prepared(*this).op->geometry;
   std::vector<FaultPoint> points;
   points.reserve(geometry.nodes.size());
   for (const OperatorFault& fault : geometry.faults) {

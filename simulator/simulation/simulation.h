@@ -11,6 +11,7 @@
 #include "simulator/common/run_context.h"
 #include "simulator/contact/search_record.h"
 #include "simulator/loading/run_watch.h"
+#include "simulator/model/fault_geometry.h"
 #include "simulator/result/result.h"
 
 /// faultsim as a library. What programs outside this project include, with the headers above:
@@ -21,10 +22,6 @@
 /// changes, ResourceError, StorageError, Interrupted, and InternalError for bugs. How a case ended
 /// (no convergence, unstable, interrupted) is a value: CaseResult::outcome.
 namespace faultsim {
-
-struct JsonDocument;
-struct LoadedScene;
-struct PreparedOperator;
 
 /// A value of a scene in place of the one that it has, as `faultsim run --set` takes it.
 struct Change {
@@ -62,26 +59,21 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
+  /// Another one that holds the same scene with the same changes, for another thread. It shares
+  /// what is there of the operator, as long as that stays the same; what creeps it prepares for
+  /// itself. Afterwards the two know nothing of each other.
+  Simulation twin() const;
+
   /// Operators are kept in files from now on, for other runs and processes. Default: nowhere.
   void keep_operators(const CachePolicy& policy);
 
-  /// Holds another scene. An operator that is the same is kept, and goes on being used.
-  void hold(JsonDocument document);
-  /// As above, a scene that is read already; for programs within the project.
-  void hold(LoadedScene loaded);
+  /// Holds another scene, as from_text() reads it. An operator that is the same is kept, and goes
+  /// on being used.
+  void hold_text(std::string_view text, const std::string& source = "scene");
   /// The held scene with these changes, and none of earlier ones. Throws InputError with all that
   /// is wrong; the scene at hand is then the one before.
   void change(const Changes& changes);
 
-  /// Holds a scene that is nothing without changes: it is read with the next ones.
-  void hold_base(JsonDocument document);
-  /// change() by values as they stand in documents.
-  /// @param values  an object of values by JSON pointer; its source is what messages call the case.
-  void change_values(const JsonDocument& values);
-
-  /// The scene at hand: held, with the last changes. As prepared(), for programs within the
-  /// project.
-  const LoadedScene& scene() const;
   /// Throws InputError with what would be refused once the mesh is there (check_geometry()).
   void check();
   /// What will be modelled of it, why, and what it costs, as `faultsim plan` prints it.
@@ -98,9 +90,11 @@ class Simulation {
   /// some seconds later, and is waited for by the next one and by the destructor.
   /// @param keep_bulk  with the factor of the bulk, for displacements of the whole mesh.
   bool prepare(const RunContext& context = {}, bool keep_bulk = false);
-  /// The operator at hand, for programs within the project: outside, its type is incomplete.
-  const PreparedOperator& prepared() const;  ///< @pre !needs_operator()
-  /// The points of all faults, in the order of FaultFields. @pre !needs_operator()
+  /// Where the faults of the scene at hand are, which fields are given on: entry k of FaultFields
+  /// belongs to nodes[k]. It outlives the simulation. @pre !needs_operator()
+  std::shared_ptr<const FaultGeometry> geometry() const;
+  /// The nodes of all faults with the names of these, in the order of FaultFields. @pre
+  /// !needs_operator()
   std::vector<FaultPoint> points() const;
 
   /// Runs the scene at hand, prepared first if it is not. A stop while it runs is an outcome
@@ -111,6 +105,7 @@ class Simulation {
                  const RunWatch& watch = {});
 
  private:
+  friend struct Inside;  // inside.h, not installed: what programs within the project see of it
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -10,6 +10,7 @@
 #include "simulator/common/errors.h"
 #include "simulator/common/thread_team.h"
 #include "simulator/operators/prepare_operator.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 
 namespace faultsim {
@@ -108,7 +109,7 @@ void ResidentCase::Impl::live() {
 
 /// Holds the scene of the question that was taken.
 void ResidentCase::Impl::hold(long question) {
-  simulation.hold(std::move(taken_scene));
+  Inside::hold(simulation, std::move(taken_scene));
   const std::lock_guard lock(mutex);
   is_at_build = simulation.needs_operator();
   if (is_at_build && question == newest) progress.state = QuestionState::building;
@@ -164,9 +165,9 @@ void ResidentCase::Impl::answer(long question) {
 }
 
 std::shared_ptr<const ShownCase> ResidentCase::Impl::run(long question) {
-  const LoadedScene& loaded = simulation.scene();
+  const LoadedScene& loaded = Inside::scene(simulation);
   auto shown = std::make_shared<ShownCase>(ShownCase{
-      loaded.document, loaded.scene, {}, FieldRecorder(simulation.prepared().op->geometry)});
+      loaded.document, loaded.scene, {}, FieldRecorder(Inside::prepared(simulation).op->geometry)});
   RunWatch watch;
   watch.step = [&](const StepResult& step, const FaultFields& fields) {
     shown->fields.add_step(step, fields);

@@ -15,6 +15,7 @@
 #include "simulator/model/fault_operator.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 #include "tests/verification/pillar_lines.h"
@@ -74,8 +75,8 @@ double error_of(faultsim::Simulation& field, const faultsim::Changes& changes) {
   };
   const faultsim::CaseResult result = field.run(changes, {}, watch);
   EXPECT_EQ(result.outcome, faultsim::Outcome::converged);
-  const faultsim::Scene& scene = field.scene().scene;
-  const auto& geometry = field.prepared().op->geometry;
+  const faultsim::Scene& scene = faultsim::Inside::scene(field).scene;
+  const auto& geometry = faultsim::Inside::prepared(field).op->geometry;
   const auto west = faultsim::reservoir_range(scene.field, scene.field.blocks[0]);
   const auto east = faultsim::reservoir_range(scene.field, scene.field.blocks[1]);
   const double theta = std::numbers::pi / 2 + scene.faults[1].dip_from_vertical;

@@ -15,6 +15,7 @@
 #include "simulator/loading/run_case.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/scene/field_depths.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 #include "tests/verification/closed_forms/elastic_solutions.h"
@@ -126,7 +127,8 @@ TEST(PillarWeakening, MeetsBoundaryElements) {
   while (n < kAsked && std::getline(lines, line)) {
     const faultsim::Changes changes = changes_of(header, line);
     const faultsim::CaseResult result = field.run(changes, {}, {});
-    const std::optional<double> expected = judged_onset(slipping_fault(field.scene().scene));
+    const std::optional<double> expected =
+        judged_onset(slipping_fault(faultsim::Inside::scene(field).scene));
     if (!expected) {
       EXPECT_TRUE(result.events.empty()) << line;
       continue;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "simulator/reading/read_scene.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 
@@ -73,9 +74,9 @@ std::vector<std::string> all_of(const LoadedScene& loaded) {
 /// Changes scene after scene one simulation, and a document of its own each time.
 void hold_against_the_whole_way(const JsonDocument& held, int n_changes) {
   Simulation simulation;
-  simulation.hold(held);
+  Inside::hold(simulation, held);
   Simulation unread;
-  unread.hold_base(held);
+  Inside::hold_base(unread, held);
   const std::vector<ParameterInfo> known = parameters(held);
   Draw draw;
   int n_sound = 0, n_alike = 0;
@@ -102,7 +103,7 @@ void hold_against_the_whole_way(const JsonDocument& held, int n_changes) {
       } catch (const InputError&) {
       }
     }
-    const std::vector<std::string> before = all_of(simulation.scene());
+    const std::vector<std::string> before = all_of(Inside::scene(simulation));
     std::string problem, expected_problem;
     LoadedScene expected;
     JsonDocument document = held;
@@ -120,17 +121,18 @@ void hold_against_the_whole_way(const JsonDocument& held, int n_changes) {
     std::string said;
     for (const Change& change : changes) said += change.parameter + " = " + change.value + "; ";
     ASSERT_EQ(problem, expected_problem) << said;
-    ASSERT_EQ(all_of(simulation.scene()), problem.empty() ? all_of(expected) : before) << said;
+    ASSERT_EQ(all_of(Inside::scene(simulation)), problem.empty() ? all_of(expected) : before)
+        << said;
     if (values.value.size() != changes.size()) continue;  // one twice
     bool sound = true;
     try {
-      unread.change_values(values);
+      Inside::change_values(unread, values);
     } catch (const InputError&) {
       sound = false;
     }
     ASSERT_EQ(sound, problem.empty()) << said;
     if (sound) {
-      ASSERT_EQ(all_of(unread.scene()), all_of(expected)) << said;
+      ASSERT_EQ(all_of(Inside::scene(unread)), all_of(expected)) << said;
     }
     n_sound += sound;
     n_alike += expected.plan.family == before[4];
@@ -156,12 +158,12 @@ TEST(Change, OfTheInitialPressureMovesHistoriesOfAbsolutePressure) {
   stage.erase("pressure_change");
   stage["pressure"] = "150 bar";
   Simulation simulation;
-  simulation.hold(document);
-  const double before = simulation.scene().scene.pressure[0].pressure_change.front();
+  Inside::hold(simulation, document);
+  const double before = Inside::scene(simulation).scene.pressure[0].pressure_change.front();
   simulation.change({{"/initial_state/water_density", "1200 kg/m3"}});
-  EXPECT_LT(simulation.scene().scene.pressure[0].pressure_change.front(), before - 1e6);
+  EXPECT_LT(Inside::scene(simulation).scene.pressure[0].pressure_change.front(), before - 1e6);
   simulation.change({{"/initial_state/ratio_across", "0.8"}});
-  EXPECT_EQ(simulation.scene().scene.pressure[0].pressure_change.front(), before);
+  EXPECT_EQ(Inside::scene(simulation).scene.pressure[0].pressure_change.front(), before);
 }
 
 }  // namespace

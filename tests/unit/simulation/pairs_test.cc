@@ -8,6 +8,7 @@
 #include "simulator/loading/run_case.h"
 #include "simulator/reading/csv_tables.h"
 #include "simulator/reading/read_scene.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 
@@ -45,7 +46,7 @@ Simulation field(const Changes& changes) {
   apply(changes, document);
   embed_tables(document);
   Simulation simulation;
-  simulation.hold(std::move(document));
+  Inside::hold(simulation, std::move(document));
   return simulation;
 }
 
@@ -201,8 +202,9 @@ TEST(FieldAndSurface, IsOffTheExactLoadsByNoMoreThanIsSaid) {
   Simulation interpolated = field(with_surface), exact = field(base);
   const auto locked = [](Simulation& simulation) {
     simulation.prepare();
-    const LoadedScene& loaded = simulation.scene();
-    const CaseLoads loads(loaded.scene, *simulation.prepared().op, simulation.prepared().loads);
+    const LoadedScene& loaded = Inside::scene(simulation);
+    const CaseLoads loads(loaded.scene, *Inside::prepared(simulation).op,
+                          Inside::prepared(simulation).loads);
     return std::pair(loads.at(0), loads.at(315532800));
   };
   for (const Changes& sample : {Changes{{"salt_stiffness", "33 GPa"}, {"central_dip", "5.5 deg"}},
@@ -214,7 +216,7 @@ TEST(FieldAndSurface, IsOffTheExactLoadsByNoMoreThanIsSaid) {
     exact.change(sample);
     const auto [a0, a] = locked(interpolated);
     const auto [b0, b] = locked(exact);
-    const double stated = interpolated.prepared().surface->traction;
+    const double stated = Inside::prepared(interpolated).surface->traction;
     EXPECT_LE(stated, 1e-3);
     const Eigen::VectorXd found = a.locked - a0.locked, expected = b.locked - b0.locked;
     EXPECT_LT((found - expected).norm(), 2 * stated * expected.norm());
@@ -292,7 +294,7 @@ TEST(RegionalStress, IsTheInitialStateThatItLeadsTo) {
                               R"(}, {"name": "rest", "duration": "1 year"}])")}},
           document);
     Simulation simulation;
-    simulation.hold(std::move(document));
+    Inside::hold(simulation, std::move(document));
     return simulation;
   };
   const History moved = run(
@@ -359,7 +361,7 @@ TEST(FieldAndHalfDomain, OfASymmetricFieldIsTheWholeBody) {
   Simulation half = field(in_three_dimensions(folder, 0)),
              whole = field(in_three_dimensions(folder, 0));
   whole.change({{"/numerics/half_domain", "off"}});
-  ASSERT_TRUE(half.scene().plan.half_domain && !whole.scene().plan.half_domain);
+  ASSERT_TRUE(Inside::scene(half).plan.half_domain && !Inside::scene(whole).plan.half_domain);
   std::vector<FaultFields> a, b;
   RunWatch watch_half, watch_whole;
   watch_half.step = [&](const StepResult&, const FaultFields& f) { a.push_back(f); };
@@ -394,7 +396,7 @@ TEST(FieldAndHalfDomain, OfASymmetricFieldIsTheWholeBody) {
 TEST(FieldAndHalfDomain, OfALopsidedFieldTakesAllOfTheBody) {
   const Folder folder;
   const Simulation simulation = field(in_three_dimensions(folder, 30));
-  EXPECT_FALSE(simulation.scene().plan.half_domain);
+  EXPECT_FALSE(Inside::scene(simulation).plan.half_domain);
   EXPECT_THAT(simulation.plan_text(),
               testing::HasSubstr("it differs from its mirror image by up to 10 %"));
   Changes asked = in_three_dimensions(folder, 30);

@@ -13,6 +13,7 @@
 #include "simulator/loading/run_case.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 
 namespace faultsim {
@@ -22,9 +23,9 @@ using testing::HasSubstr;
 
 Simulation field() {
   Simulation simulation = Simulation::from_text(starter_scene("field"), "field.json");
-  JsonDocument document = simulation.scene().document;
+  JsonDocument document = Inside::scene(simulation).document;
   apply({{"/tier", "screening"}, {"friction_angle", "22 deg"}}, document);
-  simulation.hold(std::move(document));
+  Inside::hold(simulation, std::move(document));
   return simulation;
 }
 
@@ -42,9 +43,36 @@ class Notes final : public Monitor {
   int n_told = 0;
 };
 
+TEST(Simulation, GeometryIsThatOfTheFieldsAndOutlivesIt) {
+  std::shared_ptr<const FaultGeometry> geometry;
+  std::vector<FaultPoint> points;
+  Eigen::Index n_values = 0;
+  {
+    Simulation simulation = Simulation::from_text(starter_scene("field"));
+    RunWatch watch;
+    watch.step = [&](const StepResult&, const FaultFields& fields) {
+      n_values = fields.critical_index.size();
+    };
+    simulation.run({{"/tier", "screening"}}, {}, watch);
+    geometry = simulation.geometry();
+    points = simulation.points();
+  }
+  ASSERT_EQ(static_cast<Eigen::Index>(geometry->nodes.size()), n_values);
+  ASSERT_EQ(points.size(), geometry->nodes.size());
+  std::size_t k = 0;
+  for (const OperatorFault& fault : geometry->faults) {
+    EXPECT_FALSE(fault.profiles.empty());
+    for (int i = 0; i < fault.n_nodes; ++i, ++k) {
+      EXPECT_EQ(points[k].fault, fault.name);
+      EXPECT_EQ(points[k].position, geometry->nodes[k].position);
+      EXPECT_EQ(points[k].area, geometry->nodes[k].area);
+    }
+  }
+}
+
 TEST(Simulation, RunsAsTheFunctionsBelowItDo) {
   Simulation simulation = field();
-  const LoadedScene& scene = simulation.scene();
+  const LoadedScene& scene = Inside::scene(simulation);
   const PreparedOperator prepared = prepare_operator(scene.scene, scene.plan, {}, false);
   const CaseResult expected = run_case(scene.scene, prepared, {});
   EXPECT_TRUE(simulation.needs_operator());
@@ -56,11 +84,11 @@ TEST(Simulation, RunsAsTheFunctionsBelowItDo) {
 TEST(Simulation, ChangesAreToTheHeldSceneAndUseItsOperator) {
   Simulation simulation = field();
   const std::string before = bits(simulation.run());
-  const PreparedOperator* op = &simulation.prepared();
+  const PreparedOperator* op = &Inside::prepared(simulation);
   const CaseResult weak = simulation.run({{"friction_angle", "18 deg"}});
   const CaseResult both =
       simulation.run({{"/friction/friction_angle", "18 deg"}, {"ratio_across", "0.7"}});
-  EXPECT_EQ(simulation.prepared().op, op->op);
+  EXPECT_EQ(Inside::prepared(simulation).op, op->op);
   EXPECT_NE(bits(weak), before);
   EXPECT_NE(both.identity, weak.identity);
   EXPECT_EQ(bits(simulation.run(Changes{})), before) << "nothing of earlier changes stays";
@@ -85,7 +113,7 @@ TEST(Simulation, SaysWhereTheFieldsOfAStepLie) {
     EXPECT_GT(point.area, 0);
     lowest[point.fault] = std::min(lowest[point.fault], point.position.z());
   }
-  EXPECT_EQ(lowest.size(), simulation.scene().scene.faults.size());
+  EXPECT_EQ(lowest.size(), Inside::scene(simulation).scene.faults.size());
   // Down a plane-strain fault shares of the dip line add up to the length between its ends.
   for (const auto& [fault, z] : lowest) {
     double length = 0, highest = z;
@@ -101,7 +129,8 @@ TEST(Simulation, SaysWhereTheFieldsOfAStepLie) {
 
 /// The same short name means another place where the scene has its blocks in another order.
 TEST(Simulation, ShortNamesAreThoseOfTheSceneThatIsHeld) {
-  JsonDocument one = Simulation::from_text(starter_scene("field"), "field.json").scene().document;
+  JsonDocument one =
+      Inside::scene(Simulation::from_text(starter_scene("field"), "field.json")).document;
   apply({{"/tier", "screening"}}, one);
   JsonDocument other = one;
   nlohmann::json& blocks = other.value["geometry"]["blocks"];
@@ -109,13 +138,13 @@ TEST(Simulation, ShortNamesAreThoseOfTheSceneThatIsHeld) {
   blocks[0]["name"] = second, blocks[1]["name"] = first;
   const Changes changes = {{"offset_" + second, "70 m"}};
   Simulation simulation;
-  simulation.hold_base(one);
+  Inside::hold_base(simulation, one);
   simulation.change(changes);
-  EXPECT_EQ(simulation.scene().scene.field.blocks[1].offset, 70);
-  simulation.hold_base(other);
+  EXPECT_EQ(Inside::scene(simulation).scene.field.blocks[1].offset, 70);
+  Inside::hold_base(simulation, other);
   simulation.change(changes);
-  EXPECT_EQ(simulation.scene().scene.field.blocks[0].offset, 70);
-  EXPECT_NE(simulation.scene().scene.field.blocks[1].offset, 70);
+  EXPECT_EQ(Inside::scene(simulation).scene.field.blocks[0].offset, 70);
+  EXPECT_NE(Inside::scene(simulation).scene.field.blocks[1].offset, 70);
 }
 
 /// What a flow result does is worked out anew where the mesh or the faults' rules are others.
@@ -140,7 +169,7 @@ TEST(Simulation, AFlowResultActsOnTheSceneThatIsHeld) {
     return made;
   };
   Simulation simulation;
-  simulation.hold(document({}));
+  Inside::hold(simulation, document({}));
   const CaseResult first = simulation.run();
   ASSERT_TRUE(first.field_coverage);
   EXPECT_NEAR(*first.field_coverage, 1, 1e-12);
@@ -150,7 +179,7 @@ TEST(Simulation, AFlowResultActsOnTheSceneThatIsHeld) {
                                  {{"/materials/reservoir/biot", "0.6"}},
                                  {{"friction_angle", "20 deg"}}}) {
     Simulation fresh;
-    fresh.hold(document(changes));
+    Inside::hold(fresh, document(changes));
     EXPECT_EQ(bits(simulation.run(changes)), bits(fresh.run())) << changes[0].parameter;
   }
   EXPECT_EQ(bits(simulation.run(Changes{})), before);
@@ -184,7 +213,7 @@ TEST(Simulation, SaysWhenAChangeNeedsAnotherOperator) {
   EXPECT_FALSE(simulation.needs_operator());
   simulation.change({{"offset_east", "50 m"}});
   EXPECT_TRUE(simulation.needs_operator());
-  EXPECT_THROW(simulation.prepared(), InternalError);
+  EXPECT_THROW(Inside::prepared(simulation), InternalError);
   const CaseResult moved = simulation.run();
   EXPECT_FALSE(simulation.needs_operator());
   Simulation fresh = field();
@@ -206,7 +235,7 @@ TEST(Simulation, TakesWhatCasesOfAFamilySayAgainAndWhatTheyNoLongerSay) {
     fresh.change(changes);
     simulation.change(changes);
     EXPECT_EQ(simulation.identity(), fresh.identity());
-    EXPECT_EQ(simulation.scene().document.value, fresh.scene().document.value);
+    EXPECT_EQ(Inside::scene(simulation).document.value, Inside::scene(fresh).document.value);
     EXPECT_EQ(bits(simulation.run()), bits(fresh.run()));
   }
 }

@@ -10,6 +10,7 @@
 #include "simulator/model/operator_basis.h"
 #include "simulator/reading/read_scene.h"
 #include "simulator/result/result_bytes.h"
+#include "simulator/simulation/inside.h"
 #include "simulator/simulation/loaded_scene.h"
 #include "simulator/simulation/simulation.h"
 #include "simulator/surface/operator_surface.h"
@@ -59,7 +60,7 @@ class Cache {
 Simulation on_surface(const char* surface = kOver, const CachePolicy& cache = {}) {
   Simulation simulation;
   simulation.keep_operators(cache);
-  simulation.hold(field({{"/numerics/surface", surface}}));
+  Inside::hold(simulation, field({{"/numerics/surface", surface}}));
   return simulation;
 }
 
@@ -85,7 +86,7 @@ TEST(SurfaceCase, IsCloseToTheExactCaseAndSaysThatItIsNoExactOne) {
   Simulation simulation = on_surface();
   const CaseResult found = simulation.run(kSample);
   Simulation exact;
-  exact.hold(field(kSample));
+  Inside::hold(exact, field(kSample));
   const CaseResult wanted = exact.run();
   ASSERT_EQ(found.steps.size(), wanted.steps.size());
   EXPECT_EQ(found.outcome, wanted.outcome);
@@ -133,9 +134,10 @@ TEST(SurfaceCase, HasExactGeometry) {
   Simulation simulation = on_surface(), exact;
   simulation.change(kSample);
   simulation.prepare();
-  exact.hold(field(kSample));
+  Inside::hold(exact, field(kSample));
   exact.prepare();
-  const FaultGeometry &a = simulation.prepared().op->geometry, &b = exact.prepared().op->geometry;
+  const FaultGeometry &a = Inside::prepared(simulation).op->geometry,
+                      &b = Inside::prepared(exact).op->geometry;
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
   EXPECT_EQ(a.dof_area, b.dof_area);
   EXPECT_EQ(a.locked_positions, b.locked_positions);
@@ -149,7 +151,8 @@ TEST(SurfaceCase, HasExactGeometry) {
 
 TEST(SurfaceCase, SumsUpRunsWithNodesThatMoveAndNoOthers) {
   const auto compliance = [](const Simulation& simulation) -> auto& {
-    return dynamic_cast<const InterpolatedCompliance&>(*simulation.prepared().op->compliance);
+    return dynamic_cast<const InterpolatedCompliance&>(
+        *Inside::prepared(simulation).op->compliance);
   };
   Simulation locked = on_surface();
   Changes strong = kSample;
@@ -160,7 +163,7 @@ TEST(SurfaceCase, SumsUpRunsWithNodesThatMoveAndNoOthers) {
   simulation.run(kSample);
   const auto& h = compliance(simulation);
   EXPECT_GT(h.n_made(), 0);
-  const Eigen::MatrixXd all = simulation.prepared().op->h();
+  const Eigen::MatrixXd all = Inside::prepared(simulation).op->h();
   EXPECT_EQ(all, all.transpose().eval());
   for (int j = 0; j < h.size(); ++j) EXPECT_EQ(h.diagonal(j), all(j, j));
 }
@@ -174,7 +177,7 @@ TEST(SurfaceCase, IsReadFromTheCacheAndMadeAgainWhereItIsDamaged) {
   ASSERT_TRUE(std::filesystem::is_regular_file(file));
   reader.change(kSample);
   reader.prepare();
-  EXPECT_TRUE(reader.prepared().from_cache);
+  EXPECT_TRUE(Inside::prepared(reader).from_cache);
   const CaseResult read = reader.run(kSample);
   EXPECT_EQ(bits(read), bits(built));
   EXPECT_EQ(bits(on_surface().run(kSample)), bits(built)) << "with a cache as without";
@@ -182,7 +185,7 @@ TEST(SurfaceCase, IsReadFromTheCacheAndMadeAgainWhereItIsDamaged) {
   std::fstream(file, std::ios::in | std::ios::out).seekp(-9, std::ios::end).put('x');
   Simulation again = on_surface(kOver, cache.policy());
   EXPECT_EQ(bits(again.run(kSample)), bits(built));
-  EXPECT_FALSE(again.prepared().from_cache);
+  EXPECT_FALSE(Inside::prepared(again).from_cache);
   EXPECT_TRUE(std::filesystem::is_regular_file(file));
 }
 
@@ -274,10 +277,10 @@ TEST(SurfaceCase, JoinsIntervalsOfAnOffset) {
   for (const char* offset : {"60 m", "100 m", "170 m"}) {
     const CaseResult found = simulation.run(Changes{{"offset", offset}});
     // On cells of the interval's layout.
-    const double layout = simulation.scene().scene.field.blocks[1].mesh_offset.value();
+    const double layout = Inside::scene(simulation).scene.field.blocks[1].mesh_offset.value();
     Simulation exact;
-    exact.hold(field(
-        {{"offset", offset}, {"/geometry/blocks/1/mesh_offset", concat("\"", layout, " m\"")}}));
+    Inside::hold(exact, field({{"offset", offset},
+                               {"/geometry/blocks/1/mesh_offset", concat("\"", layout, " m\"")}}));
     const CaseResult wanted = exact.run();
     ASSERT_EQ(found.steps.size(), wanted.steps.size());
     double most_slip = 0;
@@ -290,7 +293,7 @@ TEST(SurfaceCase, JoinsIntervalsOfAnOffset) {
     }
     EXPECT_GT(most_slip, 1e-3) << "nothing slips: the test says little";
     EXPECT_TRUE(found.surface);
-    families.push_back(simulation.scene().plan.family);
+    families.push_back(Inside::scene(simulation).plan.family);
   }
   EXPECT_EQ(families[0], families[1]) << "of one interval";
   EXPECT_NE(families[1], families[2]);
@@ -309,9 +312,9 @@ TEST(SurfaceCase, IsExactNextToOffsetsAtWhichLinesMeet) {
   // A case beside is read whole when the next one is on a surface again.
   Simulation simulation = on_surface(over);
   simulation.change({{"offset", "149 m"}});
-  EXPECT_FALSE(simulation.scene().scene.numerics.surface.wanted());
+  EXPECT_FALSE(Inside::scene(simulation).scene.numerics.surface.wanted());
   simulation.change({{"offset", "100 m"}});
-  EXPECT_TRUE(simulation.scene().scene.numerics.surface.wanted());
+  EXPECT_TRUE(Inside::scene(simulation).scene.numerics.surface.wanted());
 }
 
 constexpr const char* kProbed =
@@ -340,7 +343,7 @@ TEST(SurfaceCase, IsFineEnoughWhenCasesAreAlike) {
   Simulation exact;
   Changes unseen = kOther;
   unseen.push_back({"friction_angle", "23.3 deg"});
-  exact.hold(field(unseen));
+  Inside::hold(exact, field(unseen));
   const CaseResult wanted = exact.run(), ours = simulation.run(unseen);
   for (std::size_t s = 0; s < wanted.steps.size(); ++s) {
     for (std::size_t f = 0; f < wanted.steps[s].faults.size(); ++f) {
@@ -355,7 +358,7 @@ TEST(SurfaceCase, SaysTheSameOfItsCasesFromTheCache) {
   Simulation reader = on_surface(kProbed, cache.policy());
   reader.change(kSample);
   reader.prepare();
-  EXPECT_TRUE(reader.prepared().from_cache);
+  EXPECT_TRUE(Inside::prepared(reader).from_cache);
   const CaseResult read = reader.run(kSample);
   EXPECT_EQ(read.surface, built.surface);
   EXPECT_EQ(bits(read), bits(built));
@@ -387,7 +390,7 @@ TEST(SurfaceCase, NamesProbingCasesThatCannotBe) {
   EXPECT_THAT(refusal_of(with("3")), HasSubstr("/numerics/surface/probes/cases/0"));
   Simulation simulation;
   JsonDocument document = field(with(R"({"friction_angle": "12 m"})"));
-  simulation.hold(document);
+  Inside::hold(simulation, document);
   try {
     simulation.prepare();
     ADD_FAILURE() << "no refusal";
@@ -404,21 +407,21 @@ TEST(SurfaceCase, ObservesANodeThatMovesWithTheMesh) {
           R"([{"name": "beside_F2", "position": ["200 m", "0 m", "-2400 m"]}])"}},
         document);
   Simulation on_surface, exact;
-  on_surface.hold(document);
+  Inside::hold(on_surface, document);
   document.value["numerics"].erase("surface");
   std::vector<double> places;
   for (const char* dip : {"3 deg", "15 deg"}) {
     on_surface.change({{"central_dip", dip}});
     const CaseResult found = on_surface.run();
-    const Eigen::Vector3d at = on_surface.prepared().op->observed.rows[0].position;
+    const Eigen::Vector3d at = Inside::prepared(on_surface).op->observed.rows[0].position;
     places.push_back(at.x());
     apply({{"central_dip", dip},
            {"/output/observation_points/0/position",
             concat("[\"", at.x(), " m\", \"0 m\", \"", at.z(), " m\"]")}},
           document);
-    exact.hold(document);
+    Inside::hold(exact, document);
     const CaseResult wanted = exact.run();
-    EXPECT_LT((exact.prepared().op->observed.rows[0].position - at).norm(), 1e-6);
+    EXPECT_LT((Inside::prepared(exact).op->observed.rows[0].position - at).norm(), 1e-6);
     const auto of = [](const CaseResult& result) {
       const std::vector<double>& u = result.steps.back().observed;
       return Eigen::Vector3d(u[0], u[1], u[2]);

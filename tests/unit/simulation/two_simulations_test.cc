@@ -60,6 +60,37 @@ TEST(TwoSimulations, AtOnceGiveTheBitsOfOneAfterTheOther) {
   EXPECT_EQ(other, run_all(second, {}));
 }
 
+TEST(TwoSimulations, TwinsShareTheOperatorAndNothingElse) {
+  Simulation first = Simulation::from_text(starter_scene("field"));
+  first.change({{"/tier", "screening"}, {"friction_angle", "20 deg"}});
+  first.prepare();
+  Simulation second = first.twin();
+  EXPECT_FALSE(second.needs_operator());
+  EXPECT_EQ(second.geometry(), first.geometry());
+  EXPECT_EQ(second.identity(), first.identity());
+
+  const auto run_all = [](Simulation& simulation, bool backwards) {
+    std::vector<std::string> results(4);
+    const Changes cases = {{"ratio_across", "0.74"},
+                           {"friction_angle", "25 deg"},
+                           {"offset_east", "50 m"},  // another operator, of its own
+                           {"cohesion", "0.5 MPa"}};
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      const std::size_t i = backwards ? cases.size() - 1 - k : k;
+      results[i] = bits(simulation.run({{"/tier", "screening"}, cases[i]}));
+    }
+    return results;
+  };
+  std::vector<std::string> one, other;
+  {
+    std::jthread a([&] { one = run_all(first, false); });
+    std::jthread b([&] { other = run_all(second, true); });
+  }
+  EXPECT_EQ(one, other);
+  Simulation alone = Simulation::from_text(starter_scene("field"));
+  EXPECT_EQ(one, run_all(alone, false));
+}
+
 TEST(TwoSimulations, OneIsStoppedAndTheOtherIsNot) {
   std::atomic<bool> stop = false;
   CaseResult stopped, whole;
