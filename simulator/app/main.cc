@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "simulator/app/commands.h"
+#include "simulator/app/together.h"
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
@@ -237,6 +238,7 @@ void add_run(CLI::App& app, Arguments& a, ExitCode& code) {
       "Examples:\n"
       "  faultsim run my-field.json -o out\n"
       "  faultsim run my-field.json --tier screening --set offset_east=\"150 m\" -o offset-150\n"
+      "  mpirun -n 4 faultsim run my-field.json --path coupled -o out\n"
       "The folder holds one run: an earlier one is replaced when the new one is complete. Open\n"
       "out/faults.xmf in ParaView; see docs/commands.md.");
   command->callback([&] { code = run_command(a.run); });
@@ -425,6 +427,8 @@ ExitCode faultsim_main(int argc, char** argv) {
   }
   try {
     require_known_command(app, argc, argv);
+    if (argc > 1 && argv[1][0] != '-' && std::string_view(argv[1]) != "run")
+      require_started_alone(argv[1]);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);

@@ -1,15 +1,17 @@
 #include <algorithm>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
 #include "simulator/app/screen.h"
+#include "simulator/app/together.h"
 #include "simulator/app/trace_text.h"
 #include "simulator/common/machine.h"
 #include "simulator/common/text.h"
 #include "simulator/common/thread_team.h"
-#include "simulator/coupled/start_hypre.h"
+#include "simulator/coupled/ranks.h"
 #include "simulator/coupled_case/coupled_case.h"
 #include "simulator/coupled_case/path_choice.h"
 #include "simulator/files/atomic_file.h"
@@ -30,8 +32,11 @@ namespace {
 std::string built_in(double seconds) { return formatted("operator: built in %.2f s", seconds); }
 
 /// What the arguments ask for; automatic chooses by the plan. Throws InputError when the coupled
-/// path is asked for and cannot take the scene.
-PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded) {
+/// path is asked for and cannot take the scene, or several ranks take another.
+PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded, const Ranks& ranks) {
+  if (ranks.size() > 1 && arguments.path != "coupled")
+    throw InputError("faultsim run", "the condensed path runs in one process",
+                     "start it without mpirun, or add --path coupled");
   if (arguments.path == "condensed") return {SolutionPath::condensed, "asked for"};
   std::vector<Problem> hindrances = unsupported_by_coupled(loaded.scene, loaded.plan);
   if (arguments.path == "automatic") {
@@ -61,6 +66,174 @@ void add_cell_changes(const Scene& scene, const Mesh& mesh, bool half_domain,
   }
 }
 
+/// A run that is known to be possible, and its folder: which only the first rank has.
+class Run {
+ public:
+  Run(const RunArguments& arguments, const Ranks& ranks);
+  ExitCode walk();
+
+ private:
+  bool is_coupled() const { return choice_.path == SolutionPath::coupled; }
+  void write(const char* name, const std::string& text) const {
+    if (output_) write_text(output_->path() / name, text);
+  }
+  void say_what_is_planned() const;
+  void prepare(const RunContext& context);
+  RunWatch watch();
+  void write_fields();
+  void close(const CaseResult& result);
+
+  const RunArguments& arguments_;
+  Ranks ranks_;
+  SolverChoice solver_;
+  Simulation simulation_;
+  const LoadedScene& loaded_;
+  const Scene& scene_;
+  Plan plan_;
+  PathChoice choice_;
+  std::filesystem::path folder_;
+  std::optional<ResultFolder> output_;
+  ScreenMonitor monitor_;
+
+  std::unique_ptr<CoupledCase> coupled_;
+  PreparedOperator prepared_;
+  std::optional<FieldWriter> writer_;
+  std::vector<VolumeSnapshot> volume_;
+  std::string trace_;
+};
+
+Run::Run(const RunArguments& arguments, const Ranks& ranks)
+    : arguments_(arguments),
+      ranks_(ranks),
+      solver_(solver_of(arguments.leading, arguments.schur)),
+      simulation_(load_simulation(arguments.scene, arguments.op, arguments.exact)),
+      loaded_(Inside::scene(simulation_)),
+      scene_(loaded_.scene),
+      plan_(loaded_.plan),
+      monitor_(arguments.scene.json) {
+  simulation_.check();
+  add_savings(scene_, plan_);
+  choice_ = path_of(arguments, loaded_, ranks);
+  if (is_coupled()) require_runs_on_ranks(solver_, ranks.size());
+  if (const std::string complaint = blas_complaint(); !complaint.empty())
+    std::cerr << complaint << "\n";
+  folder_ = arguments.output.empty()
+                ? std::filesystem::path(
+                      std::filesystem::path(arguments.scene.file).stem().string() + "-result")
+                : arguments.output;
+  if (ranks.rank() == 0) {
+    output_.emplace(
+        ResultFolder::Request{.option = "-o",
+                              .folder = folder_,
+                              .made_by = "faultsim run",
+                              .names = {"plan.json", "scene.json", "result.json", "faults.h5",
+                                        "faults.xmf", "volume.h5", "volume.xmf", "trace.jsonl"},
+                              .inputs = input_files(loaded_)});
+  }
+  nlohmann::json planned = plan_to_json(plan_);
+  planned["path"] = {{"name", to_string(choice_.path)}, {"reason", choice_.reason}};
+  write("plan.json", json_text(planned));
+  write("scene.json", loaded_.document.value.dump(2) + "\n");
+}
+
+void Run::say_what_is_planned() const {
+  std::cerr << plan_to_text(plan_) << "linear algebra: " << blas_description() << " ("
+            << blas_kernel_reason() << ")\n"
+            << remarks_to_text(loaded_);
+  if (arguments_.path != "condensed")
+    std::cerr << "path: " << to_string(choice_.path) << ", " << choice_.reason << "\n";
+  if (ranks_.size() > 1)
+    std::cerr << "ranks: " << ranks_.size() << ", each with a part of the rock\n";
+}
+
+void Run::prepare(const RunContext& context) {
+  if (is_coupled()) {
+    coupled_ = std::make_unique<CoupledCase>(SceneBulk(scene_, loaded_.plan, loaded_.mesh), solver_,
+                                             context, ranks_);
+  } else {
+    simulation_.prepare(context, scene_.output.volume_fields);
+    prepared_ = Inside::prepared(simulation_);
+  }
+  const FaultOperator& faults = is_coupled() ? coupled_->faults() : *prepared_.op;
+  monitor_.clear();
+  if (!arguments_.scene.json)
+    std::cerr << prepared_text(faults, prepared_.surface, prepared_.from_cache, is_coupled());
+  if (scene_.output.fault_fields && output_)
+    writer_.emplace(output_->path(), faults.geometry, loaded_.plan.creep.active);
+}
+
+RunWatch Run::watch() {
+  RunWatch watch;
+  watch.step = [this](const StepResult& step, const FaultFields& fields) {
+    if (!arguments_.scene.json) std::cout << step_table_row(step, arguments_.wide) << std::flush;
+    if (writer_) writer_->add_step(step, fields);
+  };
+  if (scene_.output.volume_fields) {
+    watch.displaced = [this](const StepResult& step, const Eigen::Matrix3Xd& displacement) {
+      if (output_) volume_.push_back({step.stage, step.time, displacement});
+    };
+  }
+  if (arguments_.trace) {
+    watch.tried = [this](int step, const SubStepTrace& part) {
+      if (!arguments_.scene.json) std::cout << trace_text(step, part);
+      trace_ += trace_to_json(step, part).dump() + "\n";
+    };
+  }
+  return watch;
+}
+
+void Run::write_fields() {
+  if (arguments_.trace) write("trace.jsonl", trace_);
+  if (writer_) writer_->finish();
+  if (!scene_.output.volume_fields || !output_) return;
+  const Mesh& mesh = is_coupled() ? coupled_->mesh() : prepared_.bulk->bulk(0).problem().mesh;
+  add_cell_changes(scene_, mesh, loaded_.plan.half_domain, volume_);
+  write_volume(output_->path(), mesh.nodes, {mesh.cells.nodes(), mesh.cells.n_nodes()},
+               mesh.material, volume_);
+}
+
+/// Writes and says what came out.
+void Run::close(const CaseResult& result) {
+  write_fields();
+  nlohmann::json document = result_to_json(result);
+  document["initial_state"] = initial_state_to_json(loaded_.plan.initial);
+  if (!prepared_.integrals.empty())
+    document["field_integrals"] = field_integrals_to_json(prepared_.integrals);
+  const std::string text = json_text(std::move(document));
+  write("result.json", text);
+  const bool finished = result.outcome != Outcome::interrupted;
+  if (output_ && finished) output_->commit();
+  if (output_ && !finished) output_->keep_unfinished();
+  if (arguments_.scene.json) {
+    std::cout << text;
+    return;
+  }
+  if (result.failed_step) std::cout << step_table_row(result.steps.back(), arguments_.wide);
+  std::cout << case_summary(result)
+            << field_integrals_to_text(prepared_.integrals, result.plane_strain);
+  if (!output_) return;
+  if (finished) {
+    std::cerr << "results in " << folder_.string() << "/ (result.json, faults.xmf for ParaView)\n";
+  } else {
+    std::cerr << "interrupted: what was reached is in " << output_->path().string() << "/\n";
+  }
+}
+
+ExitCode Run::walk() {
+  if (!arguments_.scene.json) say_what_is_planned();
+  RunContext context = context_of(arguments_.op, monitor_);
+  ThreadTeam team(std::min(context.n_threads, kMostThreadsOfCase));
+  context.team = &team;
+  prepare(context);
+  if (!arguments_.scene.json)
+    std::cout << step_table_header(scene_, plan_.plane_strain, arguments_.wide);
+  context.monitor = nullptr;  // the table is progress enough
+  const CaseResult result =
+      is_coupled() ? coupled_->run(context, {watch()}) : simulation_.run(context, watch());
+  close(result);
+  return exit_code_of(result.outcome);
+}
+
 }  // namespace
 
 ExitCode exit_code_of(Outcome outcome) {
@@ -81,117 +254,9 @@ ExitCode exit_code_of(Outcome outcome) {
 }
 
 ExitCode run_command(const RunArguments& arguments) {
-  const SolverChoice solver = solver_of(arguments.leading, arguments.schur);
-  Simulation simulation = load_simulation(arguments.scene, arguments.op, arguments.exact);
-  const LoadedScene& loaded = Inside::scene(simulation);
-  simulation.check();
-  Plan plan = loaded.plan;
-  add_savings(loaded.scene, plan);
-  const Scene& scene = loaded.scene;
-  const PathChoice choice = path_of(arguments, loaded);
-  const bool is_coupled = choice.path == SolutionPath::coupled;
-  if (is_coupled) require_one_rank();
-  const bool json = arguments.scene.json;
-  if (const std::string complaint = blas_complaint(); !complaint.empty())
-    std::cerr << complaint << "\n";
-  const std::filesystem::path folder =
-      arguments.output.empty()
-          ? std::filesystem::path(std::filesystem::path(arguments.scene.file).stem().string() +
-                                  "-result")
-          : arguments.output;
-  ResultFolder output({.option = "-o",
-                       .folder = folder,
-                       .made_by = "faultsim run",
-                       .names = {"plan.json", "scene.json", "result.json", "faults.h5",
-                                 "faults.xmf", "volume.h5", "volume.xmf", "trace.jsonl"},
-                       .inputs = input_files(loaded)});
-  nlohmann::json planned = plan_to_json(plan);
-  planned["path"] = {{"name", to_string(choice.path)}, {"reason", choice.reason}};
-  write_text(output.path() / "plan.json", json_text(planned));
-  write_text(output.path() / "scene.json", loaded.document.value.dump(2) + "\n");
-
-  ScreenMonitor monitor(json);
-  if (!json) {
-    std::cerr << plan_to_text(plan) << "linear algebra: " << blas_description() << " ("
-              << blas_kernel_reason() << ")\n"
-              << remarks_to_text(loaded);
-    if (arguments.path != "condensed")
-      std::cerr << "path: " << to_string(choice.path) << ", " << choice.reason << "\n";
-  }
-  RunContext context = context_of(arguments.op, monitor);
-  ThreadTeam team(std::min(context.n_threads, kMostThreadsOfCase));
-  context.team = &team;
-  std::unique_ptr<CoupledCase> coupled;
-  if (is_coupled) {
-    coupled =
-        std::make_unique<CoupledCase>(SceneBulk(scene, loaded.plan, loaded.mesh), solver, context);
-  } else {
-    simulation.prepare(context, scene.output.volume_fields);
-  }
-  const PreparedOperator prepared = is_coupled ? PreparedOperator() : Inside::prepared(simulation);
-  const FaultOperator& faults = is_coupled ? coupled->faults() : *prepared.op;
-  monitor.clear();
-  if (!json) std::cerr << prepared_text(faults, prepared.surface, prepared.from_cache, is_coupled);
-
-  std::optional<FieldWriter> writer;
-  if (scene.output.fault_fields) {
-    writer.emplace(output.path(), faults.geometry, loaded.plan.creep.active);
-  }
-  if (!json) std::cout << step_table_header(scene, plan.plane_strain, arguments.wide);
-  context.monitor = nullptr;  // the table is progress enough
-  RunWatch watch;
-  watch.step = [&](const StepResult& step, const FaultFields& fields) {
-    if (!json) std::cout << step_table_row(step, arguments.wide) << std::flush;
-    if (writer) writer->add_step(step, fields);
-  };
-  std::vector<VolumeSnapshot> volume;
-  if (scene.output.volume_fields) {
-    watch.displaced = [&](const StepResult& step, const Eigen::Matrix3Xd& displacement) {
-      volume.push_back({step.stage, step.time, displacement});
-    };
-  }
-  std::string trace;
-  if (arguments.trace) {
-    watch.tried = [&](int step, const SubStepTrace& part) {
-      if (!json) std::cout << trace_text(step, part);
-      trace += trace_to_json(step, part).dump() + "\n";
-    };
-  }
-  const CaseResult result =
-      is_coupled ? coupled->run(context, {watch}) : simulation.run(context, watch);
-  if (arguments.trace) write_text(output.path() / "trace.jsonl", trace);
-  if (writer) writer->finish();
-  if (scene.output.volume_fields) {
-    const Mesh& mesh = is_coupled ? coupled->mesh() : prepared.bulk->bulk(0).problem().mesh;
-    add_cell_changes(scene, mesh, loaded.plan.half_domain, volume);
-    write_volume(output.path(), mesh.nodes, {mesh.cells.nodes(), mesh.cells.n_nodes()},
-                 mesh.material, volume);
-  }
-  nlohmann::json document = result_to_json(result);
-  document["initial_state"] = initial_state_to_json(loaded.plan.initial);
-  if (!prepared.integrals.empty())
-    document["field_integrals"] = field_integrals_to_json(prepared.integrals);
-  const std::string text = json_text(std::move(document));
-  write_text(output.path() / "result.json", text);
-  const bool finished = result.outcome != Outcome::interrupted;
-  if (finished) {
-    output.commit();
-  } else {
-    output.keep_unfinished();
-  }
-  if (json) {
-    std::cout << text;
-  } else {
-    if (result.failed_step) std::cout << step_table_row(result.steps.back(), arguments.wide);
-    std::cout << case_summary(result)
-              << field_integrals_to_text(prepared.integrals, result.plane_strain);
-    if (finished) {
-      std::cerr << "results in " << folder.string() << "/ (result.json, faults.xmf for ParaView)\n";
-    } else {
-      std::cerr << "interrupted: what was reached is in " << output.path().string() << "/\n";
-    }
-  }
-  return exit_code_of(result.outcome);
+  std::optional<Run> run;
+  return together([&](const Ranks& ranks) { run.emplace(arguments, ranks); },
+                  [&] { return run->walk(); });
 }
 
 }  // namespace faultsim

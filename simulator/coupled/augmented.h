@@ -13,11 +13,13 @@ namespace faultsim {
 ///
 /// with S_u = K + E + (C − F) D Cᵀ, which stays regular where a fault cuts a piece loose and K is
 /// singular. d_k = |K_k| / (c_k·c_k), |K_k| the Frobenius norm of K + E on the dofs of column c_k.
-struct AugmentedJacobian {
-  Eigen::VectorXd springs;  ///< D, n_λ, Pa/m3.
-  SaddlePoint regular;      ///< leading = S_u, no multipliers.
-};
+Eigen::VectorXd augmenting_springs(const SaddlePoint& j);  ///< D, n_λ, Pa/m3.
 
-AugmentedJacobian augment(const SaddlePoint& j);
+/// What K lacks to the symmetric part of S_u: that of E + (C − F) D Cᵀ, n_u x n_u.
+/// @param springs  empty: none, and K + E is meant.
+SparseMatrix added_to_bulk(const SaddlePoint& j, const Eigen::VectorXd& springs);
+
+/// S_u as a matrix of its own, without multipliers.
+SaddlePoint augmented(const SaddlePoint& j, const Eigen::VectorXd& springs);
 
 }  // namespace faultsim

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "simulator/common/errors.h"
 
@@ -22,12 +23,13 @@ void set_shear(const std::array<int, 2>& dof, const Eigen::Vector2d& value,
 }
 
 /// H_dd/A of the commutator's approximation, (CᵀKC)_dd A/(CᵀC)²: any positive number would do.
-double stiffness_of(const TwoSidedNode& node, int c, const Eigen::VectorXd& diagonal) {
+/// @param diagonal  of K, own rows from `first` on.
+double stiffness_of(const TwoSidedNode& node, int c, const Eigen::VectorXd& diagonal, int first) {
   double stiffness = 0, gram = 0;
   for (const JumpTerm& term : node.terms) {
     const double square = term.factor * term.factor;
     gram += square;
-    if (term.dof[c] >= 0) stiffness += square * diagonal[term.dof[c]];
+    if (term.dof[c] >= 0) stiffness += square * diagonal[term.dof[c] - first];
   }
   return stiffness / (gram * gram * node.area);
 }
@@ -51,23 +53,35 @@ struct CoupledContact::Iterate {
 
 CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
                                const CoupledContactOptions& options)
-    : bulk_(bulk), options_(options), all_held_(make_saddle_point(bulk)) {
-  inverse_area_.resize(n_dofs());
-  const Eigen::VectorXd diagonal = bulk.stiffness().diagonal();
+    : bulk_(bulk), options_(options), all_held_(make_saddle_point(bulk)), linear_(options.solver) {
+  if (runs_on_ranks(options.solver)) bulk.engine();  // before anything is multiplied
+  const Eigen::VectorXd diagonal = bulk.diagonal();
+  std::vector<double> inverse_area;
   for (int k = 0; k < static_cast<int>(bulk.fault_nodes().size()); ++k) {
     const TwoSidedNode& two = bulk.fault_nodes()[k];
     if (!two.may_jump(0)) continue;
-    Node node{k, all_held_.node_begin[k], 1, {-1, -1}, two.area, 0, {}};
+    Node node{k, n_dofs(), 1, {-1, -1}, two.area, 0, {}};
     for (int c = 0; c < 2; ++c) {
       if (two.may_jump(1 + c)) node.shear[c] = node.first + node.n_dofs++;
     }
     for (int c = 0; c < 3; ++c)
       if (two.may_jump(c)) dof_.push_back(two.jump[c]);
-    inverse_area_.segment(node.first, node.n_dofs).setConstant(1 / two.area);
-    for (int c = 0; c < 3; ++c)
-      node.stiffness = std::max(node.stiffness, stiffness_of(two, c, diagonal));
+    inverse_area.insert(inverse_area.end(), static_cast<std::size_t>(node.n_dofs), 1 / two.area);
+    if (bulk.owns(two)) {
+      for (int d = 0; d < node.n_dofs; ++d) own_.push_back(node.first + d);
+      for (int c = 0; c < 3; ++c)
+        node.stiffness = std::max(node.stiffness, stiffness_of(two, c, diagonal, bulk.first_own()));
+    }
     nodes_.push_back(node);
   }
+  inverse_area_ = Eigen::Map<const Eigen::VectorXd>(inverse_area.data(), n_dofs());
+  FAULTSIM_DEMAND(std::ssize(own_) == all_held_.n_multipliers(), own_.size(), " of ",
+                  all_held_.n_multipliers());
+  gathered_ = bulk.ranks().gathered(own_);
+  Eigen::VectorXd stiffness(std::ssize(nodes_));
+  for (std::size_t k = 0; k < nodes_.size(); ++k) stiffness[k] = nodes_[k].stiffness;
+  bulk.ranks().sum(stiffness);
+  for (std::size_t k = 0; k < nodes_.size(); ++k) nodes_[k].stiffness = stiffness[k];
   FAULTSIM_DEMAND(laws.size() == nodes_.size(), "laws for ", laws.size(), " of ", nodes_.size(),
                   " nodes");
   for (std::size_t k = 0; k < laws.size(); ++k) {
@@ -75,6 +89,13 @@ CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws
     nodes_[k].law = NodeLaw(laws[k]);
   }
   for (int k = 0; k < bulk.n_loads(); ++k) loads_.push_back(bulk.load(k));
+}
+
+/// Values over all fault dofs from the own ones of each rank.
+Eigen::VectorXd CoupledContact::of_all(const Eigen::VectorXd& own) const {
+  Eigen::VectorXd all(n_dofs());
+  all(gathered_) = bulk_.ranks().gathered(own);
+  return all;
 }
 
 FrictionState CoupledContact::state_of(const Node& node, const ContactState& state, int k) {
@@ -145,11 +166,11 @@ void CoupledContact::linearise(const ContactState& before, Iterate& at) const {
 }
 
 /// One linear step, as a correction. @returns the largest change of a traction, or of r times a
-/// jump, Pa.
+/// jump, Pa; infinite where the system is not solved, which report.reason then says.
 double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState& before,
-                               Iterate& at, CoupledStepReport& report) const {
+                               ForcingTerm& forcing, Iterate& at, CoupledStepReport& report) const {
   linearise(before, at);
-  const SaddlePoint j = make_saddle_point(bulk_, at.how);
+  SaddlePoint j = make_saddle_point(bulk_, at.how);
   // The traction that this linearisation gives the iterate: what is held keeps its own.
   Eigen::VectorXd traction = at.traction, wanted = before.jump;
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
@@ -164,31 +185,35 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
               traction);
   }
   const SparseMatrix& c = all_held_.constraint;
-  const Eigen::VectorXd r_u = force - bulk_.stiffness() * at.u - c * traction;
-  const Eigen::VectorXd jump = inverse_area_.cwiseProduct(c.transpose() * at.u);
+  const Eigen::VectorXd r_u = force - bulk_.times_stiffness(at.u) - c * traction(own_);
+  const Eigen::VectorXd jump = inverse_area_.cwiseProduct(of_all(c.transpose() * at.u));
   Eigen::VectorXd r_l(j.n_multipliers()), du, lambda;
-  const auto held = [&](int k) {
-    return at.state[k] == FaultState::stick  ? nodes_[k].n_dofs
-           : at.state[k] == FaultState::slip ? 1
-                                             : 0;
+  const std::vector<int> begin = j.node_begin;
+  const auto for_each_held = [&](const auto& visit) {  // (node, its first own multiplier, how many)
+    for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+      if (!owns(nodes_[k]) || at.state[k] == FaultState::open) continue;
+      visit(nodes_[k], begin[nodes_[k].fault_node],
+            at.state[k] == FaultState::stick ? nodes_[k].n_dofs : 1);
+    }
   };
-  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
-    const Node& node = nodes_[k];
-    r_l.segment(j.node_begin[node.fault_node], held(k)) =
-        node.area * (wanted - jump).segment(node.first, held(k));
-  }
-  CoupledSolver solver(j, options_.solver);
-  const CoupledReport solved =
-      solver.solve(r_u, r_l, options_.krylov_tolerance, options_.solver.max_iterations, du, lambda);
-  report.linear.krylov_iterations.push_back(static_cast<int>(solved.residuals.size()) - 1);
-  report.linear.setup_seconds += solver.setup_seconds();
-  report.linear.solve_seconds += solved.seconds;
+  for_each_held([&](const Node& node, int first, int n) {
+    r_l.segment(first, n) = node.area * (wanted - jump).segment(node.first, n);
+  });
+  const LinearSteps::Solved solved = linear_.solve(
+      std::move(j), r_u, r_l, [&forcing](double norm) { return forcing.next(norm); }, du, lambda);
+  report.linear.krylov_iterations.push_back(static_cast<int>(solved.report.residuals.size()) - 1);
+  report.linear.setup_seconds += solved.setup_seconds;
+  report.linear.solve_seconds += solved.report.seconds;
   at.u += du;
-  const Eigen::VectorXd next = inverse_area_.cwiseProduct(c.transpose() * at.u) - before.jump;
+  const Eigen::VectorXd next =
+      inverse_area_.cwiseProduct(of_all(c.transpose() * at.u)) - before.jump;
+  for_each_held([&](const Node& node, int first, int n) {
+    traction.segment(node.first, n) += lambda.segment(first, n);
+  });
+  traction = of_all(traction(own_));
   double change = 0;
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
     const Node& node = nodes_[k];
-    traction.segment(node.first, held(k)) += lambda.segment(j.node_begin[node.fault_node], held(k));
     if (at.state[k] == FaultState::slip) {
       const SlipTangent& tangent = at.how[node.fault_node].tangent;
       set_shear(node.shear,
@@ -203,21 +228,27 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
   }
   at.traction = traction;
   at.increment = next;
-  return solved.converged ? change : std::numeric_limits<double>::infinity();
+  if (solved.report.converged) return change;
+  report.reason = concat("GMRES (", to_string(options_.solver.leading), ", ",
+                         to_string(options_.solver.schur), ") does not reach ", solved.tolerance,
+                         " within ", options_.solver.max_iterations, " iterations");
+  return std::numeric_limits<double>::infinity();
 }
 
 /// Newton with the active set, until neither states nor values change.
 /// @param level  the largest traction that the load brings, Pa: where faults open, theirs vanish.
 void CoupledContact::iterate(const Eigen::VectorXd& force, double level, const ContactState& before,
                              Iterate& at, CoupledStepReport& report) const {
+  ForcingTerm forcing(options_.krylov_tolerance, 0.1 * options_.traction_tolerance);
   while (!report.converged) {
     if (report.newton_iterations() == options_.max_newton_iterations) {
       report.reason = concat("Newton's method goes on changing after ", report.newton_iterations(),
                              " iterations, ", at.n_changed, " states in the last");
       return;
     }
-    options_.stop.throw_if_requested("solving a linear step of the coupled path");
-    const double change = improve(force, before, at, report);
+    if (bulk_.ranks().largest(options_.stop.requested() ? 1 : 0) > 0)  // all or none
+      throw Interrupted("stopped while solving a linear step of the coupled path");
+    const double change = improve(force, before, forcing, at, report);
     const double tolerance =
         options_.traction_tolerance * std::max(level, at.traction.lpNorm<Eigen::Infinity>());
     classify(before, at, tolerance);
@@ -229,10 +260,6 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, double level, const C
                        .krylov = report.linear.krylov_iterations.back()});
     report.newton.passes += at.n_changed > 0 || report.newton.passes == 0;
     if (std::isinf(change)) {
-      report.reason =
-          concat("GMRES (", to_string(options_.solver.leading), ", ",
-                 to_string(options_.solver.schur), ") does not reach ", options_.krylov_tolerance,
-                 " within ", options_.solver.max_iterations, " iterations");
       report.newton.end = SearchEnd::no_progress;
       return;
     }
@@ -244,12 +271,13 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, double level, const C
 CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState& state,
                                           Eigen::VectorXd& u) const {
   FAULTSIM_DEMAND(load.factors.size() == loads_.size() && load.background.size() == n_dofs() &&
-                      state.jump.size() == n_dofs() && u.size() == bulk_.n_displacements(),
+                      state.jump.size() == n_dofs() && u.size() == bulk_.n_own(),
                   load.factors.size(), " factors, ", load.background.size(), " tractions");
   ContactState before = state;
   before.jump = state.jump(dof_);
   before.traction = state.traction(dof_);
-  Eigen::VectorXd force = all_held_.constraint * load.background(dof_);
+  const Eigen::VectorXd background = load.background(dof_);
+  Eigen::VectorXd force = all_held_.constraint * background(own_);
   for (int k = 0; k < static_cast<int>(loads_.size()); ++k) force += load.factors[k] * loads_[k];
   CoupledStepReport report;
   Iterate at;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "simulator/contact/contact.h"
-#include "simulator/coupled/coupled_solver.h"
+#include "simulator/coupled/linear_steps.h"
 
 namespace faultsim {
 
@@ -14,7 +14,8 @@ struct CoupledContactOptions {
   /// Of tractions, relative to the largest of the load and of the step: a Newton step that changes
   /// less is the last one.
   double traction_tolerance = 1e-9;
-  double krylov_tolerance = 1e-4;  ///< of each linear step, relative to its right-hand side.
+  /// Of a linear step, relative to its right-hand side: the loosest (ForcingTerm).
+  double krylov_tolerance = 1e-3;
   int max_newton_iterations = 60;
   StopToken stop = {};  ///< asked before each linear step: Interrupted.
 };
@@ -39,7 +40,7 @@ struct CoupledStepReport {
 ///
 ///   K u + C (t' − t'_b) = Σ_k c_k f_k,      g = A⁻¹ Cᵀ u,
 ///
-/// with (3)–(5) at the nodes, each linear step solved only as far as krylov_tolerance. Fault dofs
+/// with (3)–(5) at the nodes, each linear step solved only as far as Newton gains by it. Fault dofs
 /// are those of the operator that condensation makes of the same bulk; within, those of a node
 /// follow those of the node before. A node that is to slip is linearised at the slip that its
 /// augmented traction y = t'_T + r Δg_T promises, (|y| − τ_L)/r along y, which stays finite when
@@ -54,9 +55,10 @@ class CoupledContact {
   CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
                  const CoupledContactOptions& options);
 
-  int n_dofs() const { return all_held_.n_multipliers(); }
-  /// Takes `state` and the displacements `u` (n_u, zero at first) to the end of a load step. Not
-  /// converged, or stopped (Interrupted): both are left as they were.
+  int n_dofs() const { return static_cast<int>(dof_.size()); }
+  /// Takes `state` and the displacements `u` (own rows, zero at first) to the end of a load step.
+  /// Not converged, or stopped (Interrupted): both are left as they were. Collective; loads and
+  /// state are those of all fault dofs on every rank, and so is the report.
   CoupledStepReport advance(const CoupledLoad& load, ContactState& state, Eigen::VectorXd& u) const;
 
  private:
@@ -70,20 +72,25 @@ class CoupledContact {
   void classify(const ContactState& before, Iterate& at, double tolerance) const;
   bool turned_back(const Iterate& at, int k) const;
   void linearise(const ContactState& before, Iterate& at) const;
-  double improve(const Eigen::VectorXd& force, const ContactState& before, Iterate& at,
-                 CoupledStepReport& report) const;
+  double improve(const Eigen::VectorXd& force, const ContactState& before, ForcingTerm& forcing,
+                 Iterate& at, CoupledStepReport& report) const;
   void iterate(const Eigen::VectorXd& force, double level, const ContactState& before, Iterate& at,
                CoupledStepReport& report) const;
   static FrictionState state_of(const Node& node, const ContactState& state, int k);
   SlippingPoint point_of(const ContactState& before, const Iterate& at, int k) const;
+  Eigen::VectorXd of_all(const Eigen::VectorXd& own) const;
+  bool owns(const Node& node) const { return bulk_.owns(bulk_.fault_nodes()[node.fault_node]); }
 
   const TwoSidedBulk& bulk_;
   CoupledContactOptions options_;
-  SaddlePoint all_held_;  ///< its C is that of all fault dofs.
+  SaddlePoint all_held_;       ///< its C is that of all own fault dofs,
+  std::vector<int> own_;       ///< which are these;
+  std::vector<int> gathered_;  ///< and those of all ranks, one after another.
   std::vector<Node> nodes_;
   Eigen::VectorXd inverse_area_;  ///< per fault dof.
   std::vector<int> dof_;          ///< of the operator, per fault dof.
   std::vector<Eigen::VectorXd> loads_;
+  mutable LinearSteps linear_;  ///< its preconditioner is kept from step to step.
 };
 
 }  // namespace faultsim

@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 
+#include <cmath>
 #include <ctime>
 #include <utility>
 
@@ -20,13 +21,15 @@ double heap_bytes() {
 }
 
 double scale_of(const SaddlePoint& j) {
-  if (j.n_multipliers() == 0) return 1;
-  return j.leading().diagonal().cwiseAbs().mean() / j.gram().cwiseSqrt().mean();
+  Eigen::Vector4d sums(j.leading_diagonal().cwiseAbs().sum(), j.n_displacements(),
+                       j.gram().cwiseSqrt().sum(), j.n_multipliers());
+  j.ranks().sum(sums);
+  return sums[3] == 0 ? 1 : sums[0] / sums[1] / (sums[2] / sums[3]);
 }
 
 /// J with multiplier rows and columns times `scale`, and its preconditioner.
 struct ScaledSystem {
-  const SaddlePoint& j;
+  const SaddlePoint* jacobian;
   BlockForm form;
   double scale;
   LinearMap leading = nullptr;
@@ -34,14 +37,16 @@ struct ScaledSystem {
   Eigen::VectorXd springs = {};  ///< D of RAC.
 
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+    const SaddlePoint& j = *jacobian;
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     y.resize(n_u + n_l);
-    y.head(n_u) = j.leading() * x.head(n_u);
+    y.head(n_u) = j.times_leading(x.head(n_u));
     y.head(n_u) += scale * (j.coupling * x.tail(n_l));
     y.tail(n_l) = scale * (j.constraint.transpose() * x.head(n_u));
   }
 
   void precondition(const Eigen::VectorXd& r, Eigen::VectorXd& z) const {
+    const SaddlePoint& j = *jacobian;
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     const Eigen::VectorXd r_u = r.head(n_u), r_l = r.tail(n_l) / scale;
     Eigen::VectorXd u, lambda, correction;
@@ -89,23 +94,52 @@ int CoupledReport::iterations_to(double tolerance) const {
   return -1;
 }
 
+bool runs_on_ranks(const SolverChoice& choice) {
+  const bool leading = choice.leading == LeadingKind::ilu || choice.leading == LeadingKind::amg ||
+                       choice.leading == LeadingKind::amg_by_component;
+  return leading && (choice.schur == SchurKind::rac || choice.schur == SchurKind::lsc);
+}
+
+void require_runs_on_ranks(const SolverChoice& choice, int n_ranks) {
+  if (n_ranks == 1 || runs_on_ranks(choice)) return;
+  throw InputError("coupled path",
+                   concat(to_string(choice.leading), " with ", to_string(choice.schur),
+                          " runs on one rank, and it was started on ", n_ranks),
+                   "take amg, amg-u or ilu with rac or lsc, or start it without mpirun");
+}
+
 struct CoupledSolver::Impl {
-  Impl(const SaddlePoint& j, const SolverChoice& choice) : system{j, choice.form, scale_of(j)} {
+  Impl(const SaddlePoint& j, const SolverChoice& choice)
+      : system{&j, choice.form, scale_of(j)}, is_rac(choice.schur == SchurKind::rac) {
+    require_runs_on_ranks(choice, j.ranks().size());
     const double start = processor_seconds(), before = heap_bytes();
-    if (choice.schur == SchurKind::rac) {
-      AugmentedJacobian augmented = augment(j);
-      system.springs = std::move(augmented.springs);
+    if (is_rac) system.springs = augmenting_springs(j);
+    on_engine = runs_on_ranks(choice);
+    if (on_engine) {
+      find_added();
+      system.leading = leading_block(choice.leading, j.engine().with(added), j, choice.ilu);
+    } else if (is_rac) {
       system.leading =
-          leading_block(choice.leading, std::move(augmented.regular), choice.fsai, choice.ilu);
+          leading_block(choice.leading, augmented(j, system.springs), choice.fsai, choice.ilu);
     } else {
       system.leading = leading_block(choice.leading, j, choice.fsai, choice.ilu);
-      system.schur = schur_complement(choice.schur, j, choice.fsai);
     }
+    if (!is_rac) system.schur = schur_complement(choice.schur, j, choice.fsai);
     setup_seconds = processor_seconds() - start;
     bytes = heap_bytes() - before;
   }
 
+  /// The preconditioner is of the matrix that is there anyway, with what it lacks added.
+  void find_added() {
+    const SaddlePoint& j = *system.jacobian;
+    added = nullptr;
+    if (is_rac || j.slip.cols() > 0)
+      added = std::make_shared<const SparseMatrix>(added_to_bulk(j, system.springs));
+  }
+
   ScaledSystem system;
+  bool is_rac, on_engine = false;
+  std::shared_ptr<const SparseMatrix> added;  ///< to K, for the preconditioner.
   double setup_seconds = 0, bytes = 0;
 };
 
@@ -113,6 +147,21 @@ CoupledSolver::CoupledSolver(const SaddlePoint& j, const SolverChoice& choice)
     : impl_(std::make_unique<Impl>(j, choice)) {}
 
 CoupledSolver::~CoupledSolver() = default;
+
+void CoupledSolver::relinearise(const SaddlePoint& j) {
+  Impl& self = *impl_;
+  FAULTSIM_DEMAND(self.on_engine, "a preconditioner of a matrix of its own");
+  self.system.jacobian = &j;
+  if (self.is_rac) self.system.springs = augmenting_springs(j);
+  if (!self.is_rac) self.system.schur = schur_complement(SchurKind::lsc, j, {});
+  self.find_added();
+}
+
+double CoupledSolver::norm(const Eigen::VectorXd& f, const Eigen::VectorXd& g) const {
+  const double scale = impl_->system.scale;
+  return std::sqrt(
+      impl_->system.jacobian->ranks().sum(f.squaredNorm() + scale * scale * g.squaredNorm()));
+}
 
 double CoupledSolver::setup_seconds() const { return impl_->setup_seconds; }
 double CoupledSolver::preconditioner_bytes() const { return impl_->bytes; }
@@ -122,15 +171,20 @@ CoupledReport CoupledSolver::solve(const Eigen::VectorXd& f, const Eigen::Vector
                                    double tolerance, int max_iterations, Eigen::VectorXd& u,
                                    Eigen::VectorXd& lambda) {
   const ScaledSystem& system = impl_->system;
-  const int n_u = system.j.n_displacements(), n_l = system.j.n_multipliers();
+  const SaddlePoint& j = *system.jacobian;
+  const int n_u = j.n_displacements(), n_l = j.n_multipliers();
   FAULTSIM_DEMAND(f.size() == n_u && g.size() == n_l, f.size(), " and ", g.size());
   const double start = processor_seconds();
+  if (impl_->on_engine) j.engine().with(impl_->added);
+  const Ranks& ranks = j.ranks();
+  SumOverRanks sum;
+  if (ranks.size() > 1) sum = [&ranks](Eigen::Ref<Eigen::VectorXd> values) { ranks.sum(values); };
   Eigen::VectorXd b(n_u + n_l), x;
   b << f, system.scale * g;
   const GmresReport done =
       gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.multiply(v, w); },
             [&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.precondition(v, w); }, b,
-            tolerance, max_iterations, x);
+            tolerance, max_iterations, x, sum);
   u = x.head(n_u);
   lambda = system.scale * x.tail(n_l);
   return {done.converged, done.residuals, processor_seconds() - start};

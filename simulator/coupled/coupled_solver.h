@@ -28,6 +28,11 @@ struct SolverChoice {
 /// Of the names on the command line: "fsai", "rac". Throws InputError with the names that are none.
 SolverChoice solver_of(const std::string& leading, const std::string& schur);
 
+/// Whether several ranks can share it: blocks of hypre's with what is local or a product with K.
+bool runs_on_ranks(const SolverChoice& choice);
+/// Throws InputError where it cannot on so many.
+void require_runs_on_ranks(const SolverChoice& choice, int n_ranks);
+
 struct CoupledReport {
   bool converged = false;
   /// |b − J x| / |b| after 0, 1, 2 … iterations, by the recurrence of GMRES, in scaled rows.
@@ -45,11 +50,14 @@ struct CoupledReport {
 ///
 /// SchurKind::rac replaces both by augmented.h's elimination with one leading solve.
 ///
+/// On several ranks each gives and gets its own rows and multipliers, and all calls are collective.
+///
 /// Rows and columns of multipliers are scaled by one number, mean |diag K| / mean |column of C|,
 /// so that residuals of both kinds count alike whatever the units.
 class CoupledSolver {
  public:
-  /// Sets the preconditioner up; `j` is kept by reference.
+  /// Sets the preconditioner up; `j` is kept by reference. Throws InputError as
+  /// require_runs_on_ranks().
   CoupledSolver(const SaddlePoint& j, const SolverChoice& choice);
   ~CoupledSolver();
   CoupledSolver(const CoupledSolver&) = delete;
@@ -58,6 +66,11 @@ class CoupledSolver {
   /// @param f  n_u, N.  @param g  n_λ, m3: wanted Cᵀu = A g.
   CoupledReport solve(const Eigen::VectorXd& f, const Eigen::VectorXd& g, double tolerance,
                       int max_iterations, Eigen::VectorXd& u, Eigen::VectorXd& lambda);
+  /// Takes another linearisation on the same bulk, by the preconditioner that is there: only its
+  /// springs follow, coarser levels stay. @pre runs_on_ranks(); `j` is kept by reference.
+  void relinearise(const SaddlePoint& j);
+  /// |(f, g)| as residuals are measured. Collective.
+  double norm(const Eigen::VectorXd& f, const Eigen::VectorXd& g) const;
   double setup_seconds() const;         ///< of the processor, for the preconditioner.
   double preconditioner_bytes() const;  ///< on the heap, kept by the preconditioner.
   /// The number that scales multipliers, Pa per scaled one.

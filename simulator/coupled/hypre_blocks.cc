@@ -2,7 +2,10 @@
 
 #include <_hypre_parcsr_ls.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "simulator/common/errors.h"
@@ -15,18 +18,21 @@ using Call = HYPRE_Int (*)(HYPRE_Solver, HYPRE_ParCSRMatrix, HYPRE_ParVector, HY
 
 /// A solver of hypre's, applied once from zero.
 struct HypreBlock {
-  HypreBlock(const SparseMatrix& a, HYPRE_Int (*free)(HYPRE_Solver))
-      : matrix(a), r(static_cast<int>(a.rows())), z(static_cast<int>(a.rows())), destroy(free) {}
+  HypreBlock(std::shared_ptr<HypreMatrix> a, HYPRE_Int (*free)(HYPRE_Solver))
+      : matrix(std::move(a)),
+        r(matrix->ranges(), matrix->ranks()),
+        z(matrix->ranges(), matrix->ranks()),
+        destroy(free) {}
   ~HypreBlock() { destroy(solver); }
   HypreBlock(const HypreBlock&) = delete;
   HypreBlock& operator=(const HypreBlock&) = delete;
 
   void call(Call function, const char* doing) {
-    function(solver, matrix.get(), r.get(), z.get());
+    function(solver, matrix->get(), r.get(), z.get());
     check_hypre(doing);
   }
 
-  HypreMatrix matrix;
+  std::shared_ptr<HypreMatrix> matrix;
   HypreVector r, z;
   HYPRE_Int (*destroy)(HYPRE_Solver);
   HYPRE_Solver solver = nullptr;
@@ -45,9 +51,8 @@ LinearMap set_up(const std::shared_ptr<HypreBlock>& block, Call set_up, Call sol
 }
 
 /// What both kinds of AMG share.
-std::shared_ptr<HypreBlock> amg_block(std::shared_ptr<const SparseMatrix> a) {
-  const auto block = std::make_shared<HypreBlock>(*a, HYPRE_BoomerAMGDestroy);
-  a.reset();
+std::shared_ptr<HypreBlock> amg_block(std::shared_ptr<HypreMatrix> a) {
+  const auto block = std::make_shared<HypreBlock>(std::move(a), HYPRE_BoomerAMGDestroy);
   HYPRE_BoomerAMGCreate(&block->solver);
   HYPRE_Solver solver = block->solver;
   HYPRE_BoomerAMGSetNumFunctions(solver, 3);  // unknown i is of component i mod 3
@@ -61,25 +66,41 @@ std::shared_ptr<HypreBlock> amg_block(std::shared_ptr<const SparseMatrix> a) {
 }
 
 /// Translations are what interpolation keeps anyway; an orthonormal set mixes the six, so those
-/// three that complete the translations are taken.
-void set_rotations(const Eigen::MatrixXd& motions, HypreBlock& block) {
-  const int n = static_cast<int>(motions.rows());
+/// three that complete the translations are taken: Gram and Schmidt on the products of all with
+/// each other, which ranks add up once.
+std::vector<Eigen::VectorXd> rotations_of(const Eigen::MatrixXd& motions, const RowRanges& ranges,
+                                          const Ranks& ranks) {
+  const auto n = motions.rows();
   Eigen::MatrixXd all(n, 9);
-  for (int i = 0; i < n; ++i) all.row(i).head<3>() = Eigen::Vector3d::Unit(i % 3).transpose();
+  for (Eigen::Index i = 0; i < n; ++i)
+    all.row(i).head<3>() =
+        std::sqrt(3.0 / ranges.n_rows()) * Eigen::Vector3d::Unit(i % 3).transpose();
   all.rightCols<6>() = motions;
-  int found = 0;
-  for (int m = 3; m < 9 && found < 3; ++m) {  // Gram-Schmidt against what is there
-    Eigen::VectorXd mode = all.col(m);
-    for (int pass = 0; pass < 2; ++pass) {
-      for (int c = 0; c < 3; ++c) mode -= 3.0 / n * all.col(c).dot(mode) * all.col(c);
-      for (const auto& other : block.rotations) mode -= other->values().dot(mode) * other->values();
-    }
-    if (mode.norm() < 1e-6) continue;
-    block.rotations.push_back(std::make_unique<HypreVector>(n));
-    block.rotations.back()->values() = mode.normalized();
-    block.pointers.push_back(block.rotations.back()->get());
-    ++found;
+  Eigen::MatrixXd products = all.transpose() * all;
+  ranks.sum(Eigen::Map<Eigen::VectorXd>(products.data(), products.size()));
+  Eigen::MatrixXd taken = Eigen::MatrixXd::Identity(9, 3);  // as combinations of the nine
+  std::vector<Eigen::VectorXd> rotations;
+  for (int m = 3; m < 9 && rotations.size() < 3; ++m) {
+    Eigen::VectorXd mode = Eigen::VectorXd::Unit(9, m);
+    for (int pass = 0; pass < 2; ++pass) mode -= taken * (taken.transpose() * (products * mode));
+    const double norm = std::sqrt(std::max(mode.dot(products * mode), 0.0));
+    if (norm < 1e-6) continue;
+    mode /= norm;
+    taken.conservativeResize(Eigen::NoChange, taken.cols() + 1);
+    taken.rightCols<1>() = mode;
+    rotations.emplace_back(all * mode);
   }
+  return rotations;
+}
+
+void set_rotations(const Eigen::MatrixXd& motions, HypreBlock& block) {
+  const HypreMatrix& a = *block.matrix;
+  for (const Eigen::VectorXd& mode : rotations_of(motions, a.ranges(), a.ranks())) {
+    block.rotations.push_back(std::make_unique<HypreVector>(a.ranges(), a.ranks()));
+    block.rotations.back()->values() = mode;
+    block.pointers.push_back(block.rotations.back()->get());
+  }
+  const int found = static_cast<int>(block.pointers.size());
   HYPRE_BoomerAMGSetInterpVectors(block.solver, found, block.pointers.data());
   HYPRE_BoomerAMGSetInterpVecVariant(block.solver, 2);
   HYPRE_BoomerAMGSetInterpVecQMax(block.solver, 4);
@@ -88,9 +109,12 @@ void set_rotations(const Eigen::MatrixXd& motions, HypreBlock& block) {
 
 }  // namespace
 
-LinearMap hypre_ilu(std::shared_ptr<const SparseMatrix> a, const IluOptions& options) {
-  const auto block = std::make_shared<HypreBlock>(*a, HYPRE_ILUDestroy);
-  a.reset();
+std::shared_ptr<HypreMatrix> hypre_matrix(const SparseMatrix& symmetric) {
+  return std::make_shared<HypreMatrix>(symmetric);
+}
+
+LinearMap hypre_ilu(std::shared_ptr<HypreMatrix> a, const IluOptions& options) {
+  const auto block = std::make_shared<HypreBlock>(std::move(a), HYPRE_ILUDestroy);
   HYPRE_ILUCreate(&block->solver);
   HYPRE_ILUSetType(block->solver, 1);  // ILUT on each rank's block
   HYPRE_ILUSetDropThreshold(block->solver, options.drop_tolerance);
@@ -100,7 +124,7 @@ LinearMap hypre_ilu(std::shared_ptr<const SparseMatrix> a, const IluOptions& opt
   return set_up(block, HYPRE_ILUSetup, HYPRE_ILUSolve);
 }
 
-LinearMap hypre_amg(std::shared_ptr<const SparseMatrix> a, const Eigen::MatrixXd& rigid_motions) {
+LinearMap hypre_amg(std::shared_ptr<HypreMatrix> a, const Eigen::MatrixXd& rigid_motions) {
   const auto block = amg_block(std::move(a));
   HYPRE_BoomerAMGSetNodal(block->solver, 4);  // strength of a node's 3 x 3 block: row sum
   HYPRE_BoomerAMGSetNodalDiag(block->solver, 1);
@@ -111,7 +135,7 @@ LinearMap hypre_amg(std::shared_ptr<const SparseMatrix> a, const Eigen::MatrixXd
   return set_up(block, HYPRE_BoomerAMGSetup, HYPRE_BoomerAMGSolve);
 }
 
-LinearMap hypre_amg_by_component(std::shared_ptr<const SparseMatrix> a) {
+LinearMap hypre_amg_by_component(std::shared_ptr<HypreMatrix> a) {
   const auto block = amg_block(std::move(a));
   HYPRE_BoomerAMGSetStrongThreshold(block->solver, 0.9);
   return set_up(block, HYPRE_BoomerAMGSetup, HYPRE_BoomerAMGSolve);

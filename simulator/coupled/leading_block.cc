@@ -54,27 +54,21 @@ LinearMap direct_solver(const SparseMatrix& a, bool symmetric) {
   return [lu](const VectorXd& r, VectorXd& z) { z = lu->solve(r); };
 }
 
+LinearMap leading_block(LeadingKind kind, std::shared_ptr<HypreMatrix> a, const SaddlePoint& of,
+                        const IluOptions& ilu) {
+  if (kind == LeadingKind::ilu) return hypre_ilu(std::move(a), ilu);
+  if (kind == LeadingKind::amg) return hypre_amg(std::move(a), of.motions());
+  FAULTSIM_DEMAND(kind == LeadingKind::amg_by_component, to_string(kind), " is not hypre's");
+  return hypre_amg_by_component(std::move(a));
+}
+
 LinearMap leading_block(LeadingKind kind, SaddlePoint j, const FsaiOptions& fsai,
                         const IluOptions& ilu) {
   if (kind == LeadingKind::exact) return direct_solver(j.leading(), j.symmetric);
-  std::shared_ptr<const SparseMatrix> a = j.symmetric_leading();
-  const Eigen::MatrixXd motions = std::move(j.rigid_motions);
-  j = {};  // what only `a` has may go once it has been copied
-  switch (kind) {
-    case LeadingKind::fsai:
-      return fsai_block(*a, fsai);
-    case LeadingKind::incomplete_cholesky:
-      return incomplete_cholesky(*a);
-    case LeadingKind::ilu:
-      return hypre_ilu(std::move(a), ilu);
-    case LeadingKind::amg:
-      return hypre_amg(std::move(a), motions);
-    case LeadingKind::amg_by_component:
-      return hypre_amg_by_component(std::move(a));
-    case LeadingKind::exact:
-      break;
-  }
-  FAULTSIM_DEMAND(false, "leading block ", static_cast<int>(kind));
+  const std::shared_ptr<const SparseMatrix> a = j.symmetric_leading();
+  if (kind == LeadingKind::fsai) return fsai_block(*a, fsai);
+  if (kind == LeadingKind::incomplete_cholesky) return incomplete_cholesky(*a);
+  return leading_block(kind, hypre_matrix(*a), j, ilu);
 }
 
 }  // namespace faultsim

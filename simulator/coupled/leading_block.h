@@ -37,6 +37,12 @@ struct IluOptions {
 LinearMap leading_block(LeadingKind kind, SaddlePoint j, const FsaiOptions& fsai,
                         const IluOptions& ilu);
 
+class HypreMatrix;
+/// The same of a matrix in the solver's format: ilu and both amg, on all its ranks.
+/// @param of  whose near-null space amg keeps. Collective, what is returned too.
+LinearMap leading_block(LeadingKind kind, std::shared_ptr<HypreMatrix> a, const SaddlePoint& of,
+                        const IluOptions& ilu);
+
 /// G of the adaptive FSAI: lower triangular, A⁻¹ ≈ GᵀG, diag(G A Gᵀ) = 1.
 /// @param a  symmetric positive definite, both triangles, sorted columns; ResourceError when it is
 ///           not.

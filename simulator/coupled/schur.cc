@@ -104,12 +104,13 @@ LinearMap block_diagonal_schur(const SaddlePoint& j) {
   };
 }
 
+/// The matrix amid it is applied, not formed: what it holds is K's.
 LinearMap least_squares_commutator(const SaddlePoint& j) {
-  const VectorXd inverse_gram = j.gram().cwiseInverse();
-  const SparseMatrix product =
-      SparseMatrix(j.constraint.transpose()) * SparseMatrix(j.leading() * j.coupling);
-  const SparseMatrix inverse = inverse_gram.asDiagonal() * product * inverse_gram.asDiagonal();
-  return [inverse](const VectorXd& r, VectorXd& z) { z = inverse * r; };
+  return [&j, inverse_gram = VectorXd(j.gram().cwiseInverse())](const VectorXd& r, VectorXd& z) {
+    const VectorXd scaled = inverse_gram.cwiseProduct(r);
+    const VectorXd forces = j.times_leading(j.coupling * scaled);
+    z = inverse_gram.cwiseProduct(j.constraint.transpose() * forces);
+  };
 }
 
 }  // namespace

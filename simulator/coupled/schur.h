@@ -19,7 +19,9 @@ constexpr auto words(SchurKind) {
 }
 
 /// z ≈ S⁻¹ r, a fixed linear map.
-/// @param kind  any but rac (InternalError). @param fsai  of K + E, and of the second one.
+/// @pre j outlives it.
+/// @param kind  any but rac (InternalError); all but lsc on one rank only.
+/// @param fsai  of K + E, and of the second one.
 /// Throws ResourceError when memory is short or the approximation is singular.
 LinearMap schur_complement(SchurKind kind, const SaddlePoint& j, const FsaiOptions& fsai);
 

@@ -27,7 +27,7 @@ StudyRow study(const TwoSidedBulk& bulk, const SaddlePoint& j, const SolverChoic
   row.choice = choice;
   row.n_displacements = j.n_displacements();
   row.n_multipliers = j.n_multipliers();
-  row.leading_nonzeros = j.leading().nonZeros();
+  row.leading_nonzeros = bulk.n_entries();
   row.constraint_nonzeros = j.constraint.nonZeros();
   std::unique_ptr<CoupledSolver> solver;
   try {

@@ -50,14 +50,15 @@ std::string parts_warning(const CaseResult& result) {
 }
 
 struct CoupledCase::Impl final {
-  Impl(const SceneBulk& of, const SolverChoice& choice)
+  Impl(const SceneBulk& of, const SolverChoice& choice, const Ranks& ranks)
       : scene(of.scene()),
         solver(choice),
         shared(of.problem()),
         problem(*shared),
         faults(uncondensed(scene, of.plan(), problem)),
         bulk(problem,
-             choice.schur == SchurKind::rac ? LoosePieces::held_by_faults : LoosePieces::refused),
+             choice.schur == SchurKind::rac ? LoosePieces::held_by_faults : LoosePieces::refused,
+             ranks),
         mirrored(mirrored_rows(scene, of.plan().half_domain)) {}
 
   const Scene& scene;
@@ -71,11 +72,12 @@ struct CoupledCase::Impl final {
 
 namespace {
 
-CoupledContactOptions options_of(const SolverChoice& solver, const StepSetting& setting) {
+CoupledContactOptions options_of(const SolverChoice& solver, const StepSetting& setting,
+                                 const StopToken& stop) {
   CoupledContactOptions options;
   options.solver = solver;
   options.traction_tolerance = setting.scene.numerics.traction_tolerance;
-  options.stop = setting.watch.stop;
+  options.stop = stop;
   return options;
 }
 
@@ -85,16 +87,16 @@ class CoupledSteps final : public StepSolver {
   /// @pre all arguments outlive this.
   CoupledSteps(const TwoSidedBulk& bulk, const BulkProblem& problem, const FaultOperator& faults,
                const std::vector<int>& mirrored, const SolverChoice& solver,
-               const StepSetting& setting)
+               const StepSetting& setting, const StopToken& stop)
       : bulk_(bulk),
         problem_(problem),
         faults_(faults),
         mirrored_(mirrored),
-        options_(options_of(solver, setting)),
+        options_(options_of(solver, setting, stop)),
         contact_(bulk, setting.laws, options_),
         max_cuts_(setting.scene.numerics.max_step_cuts),
         tried_(setting.watch.tried),
-        u_(Eigen::VectorXd::Zero(bulk.n_displacements())) {
+        u_(Eigen::VectorXd::Zero(bulk.n_own())) {
     at_.factors.assign(problem.loads.size(), 0);
     at_.background = Eigen::VectorXd::Zero(faults.geometry.n_dofs);
     FAULTSIM_DEMAND(contact_.n_dofs() == faults.geometry.n_dofs, contact_.n_dofs(), " and ",
@@ -220,11 +222,12 @@ Eigen::VectorXd CoupledSteps::observed(const StepLoads&, const ContactState&) co
 }  // namespace
 
 CoupledCase::CoupledCase(const SceneBulk& scene, const SolverChoice& solver,
-                         const RunContext& context) {
+                         const RunContext& context, const Ranks& ranks) {
+  require_runs_on_ranks(solver, ranks.size());
   std::vector<Problem> problems = unsupported_by_coupled(scene.scene(), scene.plan());
   if (!problems.empty()) throw InputError("scene", std::move(problems));
   context.progress(0.0, "meshing and assembling");
-  impl_ = std::make_unique<Impl>(scene, solver);
+  impl_ = std::make_unique<Impl>(scene, solver, ranks);
 }
 
 CoupledCase::~CoupledCase() = default;
@@ -234,11 +237,13 @@ const Mesh& CoupledCase::mesh() const { return impl_->problem.mesh; }
 
 CaseResult CoupledCase::run(const RunContext& context, const CaseProbe& probe) {
   Impl& self = *impl_;
-  const auto steps = [&self](const StepSetting& setting) {
+  const auto steps = [&self, &context](const StepSetting& setting) {
     return std::make_unique<CoupledSteps>(self.bulk, self.problem, self.faults, self.mirrored,
-                                          self.solver, setting);
+                                          self.solver, setting, context.stop);
   };
-  CaseResult result = run_case(self.scene, self.faults, steps, context, probe);
+  RunContext walk = context;
+  if (self.bulk.ranks().size() > 1) walk.stop = {};  // asked where all ranks ask, and only there
+  CaseResult result = run_case(self.scene, self.faults, steps, walk, probe);
   if (std::string text = parts_warning(result); !text.empty()) result.warnings.push_back(text);
   return result;
 }

@@ -27,7 +27,10 @@ class CoupledCase {
   /// @pre scene and plan outlive this. Throws InputError with all of unsupported_by_coupled(), and
   /// for pieces of rock that nothing holds (SchurKind::rac lets faults hold them; the other kinds
   /// need a K that is regular).
-  CoupledCase(const SceneBulk& scene, const SolverChoice& solver, const RunContext& context = {});
+  /// @param ranks  that solve it together: each makes one of the same scene, and all calls are
+  ///               collective. Results and fields are the whole case's, on every rank.
+  CoupledCase(const SceneBulk& scene, const SolverChoice& solver, const RunContext& context = {},
+              const Ranks& ranks = {});
   ~CoupledCase();
   CoupledCase(const CoupledCase&) = delete;
   CoupledCase& operator=(const CoupledCase&) = delete;

@@ -15,14 +15,15 @@ struct CellUnknowns {
   std::vector<int> unknowns;
 };
 
-CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs) {
+/// @param wanted  per cell; others have none.
+CellUnknowns cell_unknowns(const Mesh& mesh, const DofMap& dofs, const std::vector<char>& wanted) {
   CellUnknowns result;
   result.begin.push_back(0);
   std::vector<int> list;
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     list.clear();
     for (const int node : mesh.cells[cell]) {
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < 3 && (wanted.empty() || wanted[cell]); ++c) {
         for (const DofMap::Term& term : dofs.terms(node, c)) list.push_back(term.unknown);
       }
     }
@@ -52,7 +53,7 @@ CellUnknowns transposed(const CellUnknowns& cells, int n_unknowns) {
 }
 
 /// The lower triangle's pattern with zero values.
-SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
+SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns, bool may_lack_cells) {
   const CellUnknowns cells_of = transposed(cells, n_unknowns);
   std::vector<int> seen_by(static_cast<std::size_t>(n_unknowns), -1);
   std::vector<int> rows;
@@ -81,7 +82,8 @@ SparseMatrix make_pattern(const CellUnknowns& cells, int n_unknowns) {
   k.outerIndexPtr()[0] = 0;
   for (int column = 0; column < n_unknowns; ++column) {
     rows_of(column);
-    FAULTSIM_DEMAND(!rows.empty() && rows.front() == column, "unknown ", column, " has no cell");
+    FAULTSIM_DEMAND(rows.empty() ? may_lack_cells : rows.front() == column, "unknown ", column,
+                    " has no cell");
     long at = k.outerIndexPtr()[column];
     for (int row : rows) k.innerIndexPtr()[at++] = row;
     k.outerIndexPtr()[column + 1] = at;
@@ -122,15 +124,17 @@ void add_cell(std::span<const int> nodes, const CellMatrix<Nodes>& k_e, double s
 }  // namespace
 
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-                                const DofMap& dofs, bool mean_dilatation) {
-  const CellUnknowns cells = cell_unknowns(mesh, dofs);
-  SparseMatrix k = make_pattern(cells, dofs.n_unknowns());
+                                const DofMap& dofs, bool mean_dilatation,
+                                const std::vector<char>& wanted) {
+  const CellUnknowns cells = cell_unknowns(mesh, dofs, wanted);
+  SparseMatrix k = make_pattern(cells, dofs.n_unknowns(), !wanted.empty());
   const double scale = mesh.plane_strain ? 1 / mesh.thickness : 1;
   std::vector<int> local(static_cast<std::size_t>(dofs.n_unknowns()));
   Eigen::MatrixXd matrix;
   for (std::size_t cell = 0; cell < mesh.cells.size(); ++cell) {
     const auto& material = materials.at(mesh.material[cell]);
     const int n = static_cast<int>(cells.begin[cell + 1] - cells.begin[cell]);
+    if (n == 0) continue;
     with_element(mesh, static_cast<int>(cell), [&](const auto& element) {
       constexpr int kNodes = std::remove_cvref_t<decltype(element)>::kNodes;
       add_cell<kNodes>(mesh.cells[cell], element_stiffness(element, material, mean_dilatation),

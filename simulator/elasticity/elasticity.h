@@ -87,8 +87,10 @@ class DofMap {
 
 /// K = Pᵀ K_full P (n x n, lower triangle, sorted columns) of cells as in element.h. Deterministic
 /// summation order. In plane strain the matrix and all loads are per metre of thickness.
+/// @param wanted  per cell; empty = all. Columns of unknowns without a wanted cell stay empty.
 SparseMatrix assemble_stiffness(const Mesh& mesh, const std::vector<ElasticMaterial>& materials,
-                                const DofMap& dofs, bool mean_dilatation);
+                                const DofMap& dofs, bool mean_dilatation,
+                                const std::vector<char>& wanted = {});
 
 /// f = Pᵀ ∫ div v: b Δp = 1 Pa in the region, times the cells' volume fractions.
 Eigen::VectorXd pressure_load(const Mesh& mesh, const DofMap& dofs, int region);

@@ -36,14 +36,26 @@ class GrowingBasis {
   std::vector<Eigen::MatrixXd> blocks_;
 };
 
+/// v·w of vectors that several processes may have parts of.
+template <typename Left>
+double dot(const Left& v, const Eigen::VectorXd& w, const SumOverRanks& sum) {
+  Eigen::Matrix<double, 1, 1> product(v.dot(w));
+  if (sum) sum(product);
+  return product[0];
+}
+
+double norm_of(const Eigen::VectorXd& v, const SumOverRanks& sum) {
+  return sum ? std::sqrt(dot(v, v, sum)) : v.norm();
+}
+
 }  // namespace
 
 GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
                   const Eigen::VectorXd& b, double tolerance, int max_iterations,
-                  Eigen::VectorXd& x) {
+                  Eigen::VectorXd& x, const SumOverRanks& sum) {
   GmresReport report;
   x.setZero(b.size());
-  const double norm = b.norm();
+  const double norm = norm_of(b, sum);
   if (norm == 0) return {true, 0, 0, {0}};
   report.residuals.push_back(1);
   GrowingBasis basis(b.size(), max_iterations + 1);
@@ -59,10 +71,10 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
     precondition(w, z);
     multiply(z, w);
     for (int i = 0; i <= j; ++i) {  // modified Gram-Schmidt
-      hessenberg(i, j) = basis[i].dot(w);
+      hessenberg(i, j) = dot(basis[i], w, sum);
       w -= hessenberg(i, j) * basis[i];
     }
-    hessenberg(j + 1, j) = w.norm();
+    hessenberg(j + 1, j) = norm_of(w, sum);
     if (!std::isfinite(hessenberg(j + 1, j))) return report;
     if (hessenberg(j + 1, j) > 0) basis.append(w / hessenberg(j + 1, j));
     for (int i = 0; i < j; ++i) {

@@ -9,6 +9,9 @@ namespace faultsim {
 /// y := operator x, on vectors of one size.
 using LinearMap = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)>;
 
+/// Adds up, entry by entry, what several processes have of something; each gets the same bits.
+using SumOverRanks = std::function<void(Eigen::Ref<Eigen::VectorXd> values)>;
+
 struct GmresReport {
   bool converged = false;
   int iterations = 0;
@@ -19,8 +22,9 @@ struct GmresReport {
 /// Right-preconditioned GMRES without restart (Saad and Schultz, 1986), for a good preconditioner
 /// and few iterations: finds x with |b − M x| ≤ tolerance |b| from x = 0.
 /// Keeps a vector of the size of b per iteration that is done. @param precondition  P⁻¹, linear.
+/// @param sum  where several processes have parts of the vectors; none: this one has them whole.
 GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
                   const Eigen::VectorXd& b, double tolerance, int max_iterations,
-                  Eigen::VectorXd& x);
+                  Eigen::VectorXd& x, const SumOverRanks& sum = nullptr);
 
 }  // namespace faultsim

@@ -4,72 +4,17 @@
 
 #include <array>
 #include <bit>
-#include <chrono>
 #include <csignal>
 #include <limits>
-#include <mutex>
 #include <numeric>
-#include <thread>
 
 #include "simulator/common/errors.h"
+#include "simulator/linalg/metis_turn.h"
 
 namespace faultsim {
 namespace {
 
 using Index = long;
-
-/// METIS 5.1 catches SIGABRT and SIGTERM as it begins, by a handler that crashes in any thread but
-/// its own, and the process may have some that nobody here started (those of BLAS). So what was is
-/// put back as soon as METIS has taken it; and once more in the end, because METIS then puts back
-/// handlers that serve once: the next signal would end the process by its default.
-class KeptSignalActions {
- public:
-  KeptSignalActions() {
-    for (std::size_t i = 0; i < kTaken.size(); ++i) sigaction(kTaken[i], nullptr, &before_[i]);
-    watch_ = std::jthread([this](const std::stop_token& end) {
-      while (!end.stop_requested() && !is_taken()) std::this_thread::yield();
-      put_back();
-    });
-  }
-  ~KeptSignalActions() {
-    watch_.request_stop();
-    watch_.join();
-    put_back();
-  }
-  KeptSignalActions(const KeptSignalActions&) = delete;
-  KeptSignalActions& operator=(const KeptSignalActions&) = delete;
-
- private:
-  /// SIGTERM is the last that it takes.
-  bool is_taken() const {
-    struct sigaction now = {};
-    sigaction(SIGTERM, nullptr, &now);
-    return now.sa_handler != before_.back().sa_handler;
-  }
-  void put_back() const {
-    for (std::size_t i = 0; i < kTaken.size(); ++i) sigaction(kTaken[i], &before_[i], nullptr);
-  }
-
-  static constexpr std::array kTaken = {SIGABRT, SIGTERM};
-  std::array<struct sigaction, kTaken.size()> before_ = {};
-  std::jthread watch_;
-};
-
-void require_no_stop(const std::function<bool()>& stop) {
-  if (stop && stop()) throw Interrupted("stopped while ordering the unknowns");
-}
-
-/// The one turn in the process: METIS seeds rand() and draws from it, and sets handlers of signals.
-std::unique_lock<std::mutex> wait_for_turn(const std::function<bool()>& stop) {
-  static std::mutex mutex;
-  std::unique_lock turn(mutex, std::try_to_lock);
-  while (!turn.owns_lock()) {
-    require_no_stop(stop);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    turn.try_lock();
-  }
-  return turn;
-}
 
 /// Both triangles, as METIS wants them; neighbours ascending.
 struct Adjacency {
@@ -123,7 +68,7 @@ std::optional<std::vector<Index>> nested_dissection(const GroupGraph& graph,
   Adjacency full = adjacency(graph);
   idx_t n = static_cast<idx_t>(full.begin.size()) - 1;
   std::vector<idx_t> order(n), place(n);
-  const std::unique_lock turn = wait_for_turn(stop);
+  const std::unique_lock turn = turn_of_metis(stop);
   while (true) {
     require_no_stop(stop);
     int done = METIS_ERROR;
@@ -149,7 +94,7 @@ std::optional<std::vector<int>> dissected_sets(const GroupGraph& graph, int n_do
   const auto n = static_cast<idx_t>(full.begin.size()) - 1;
   std::vector<idx_t> order(n), place(n), by_level(2 * n_domains - 1), options(METIS_NOPTIONS);
   METIS_SetDefaultOptions(options.data());
-  const std::unique_lock turn = wait_for_turn(stop);
+  const std::unique_lock turn = turn_of_metis(stop);
   require_no_stop(stop);
   const int done = METIS_NodeNDP(n, full.begin.data(), full.neighbours.data(), nullptr, n_domains,
                                  options.data(), order.data(), place.data(), by_level.data());

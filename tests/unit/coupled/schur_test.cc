@@ -130,30 +130,58 @@ TEST(Schur, FsaiTwiceIsItsDefinition) {
 TEST(Augmented, IsTheJacobianWithSpringsInSeries) {
   const CoupledExample example;
   for (const SaddlePoint& j : example.both()) {
-    const AugmentedJacobian augmented = augment(j);
-    ASSERT_GT(augmented.springs.minCoeff(), 0);
+    const Eigen::VectorXd springs = augmenting_springs(j);
+    ASSERT_GT(springs.minCoeff(), 0);
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n_u + n_l, n_u + n_l);
     whole.topLeftCorner(n_u, n_u) = j.leading();
     whole.topRightCorner(n_u, n_l) = j.coupling;
     whole.bottomLeftCorner(n_l, n_u) = Eigen::MatrixXd(j.constraint).transpose();
-    whole.bottomRightCorner(n_l, n_l).diagonal() = -augmented.springs.cwiseInverse();
+    whole.bottomRightCorner(n_l, n_l).diagonal() = -springs.cwiseInverse();
     const Eigen::VectorXd u = Eigen::VectorXd::Random(n_u);
     const Eigen::VectorXd lambda = Eigen::VectorXd::Random(n_l) * j.leading().norm();
     Eigen::VectorXd x(n_u + n_l);
     x << u, lambda;
     const Eigen::VectorXd r = whole * x;
     Eigen::VectorXd found;
-    direct_solver(augmented.regular.leading(), j.symmetric)(
-        r.head(n_u) + j.coupling * augmented.springs.cwiseProduct(r.tail(n_l)), found);
+    direct_solver(augmented(j, springs).leading(), j.symmetric)(
+        r.head(n_u) + j.coupling * springs.cwiseProduct(r.tail(n_l)), found);
     EXPECT_LT((found - u).norm(), 1e-7 * u.norm());
+  }
+}
+
+/// What AMG sees on the solver's own matrix is the symmetric part of S_u, K x stays K x, and what
+/// is taken away leaves no trace.
+TEST(Augmented, IsBorrowedFromTheBulkAndGivenBack) {
+  const CoupledExample example;
+  const SaddlePoint& stick = example.stick;
+  const Eigen::MatrixXd k = stick.leading();
+  for (const SaddlePoint& j : example.both()) {
+    const Eigen::VectorXd springs = augmenting_springs(j);
+    const Eigen::MatrixXd s_u = augmented(j, springs).leading();
+    EngineMatrix& engine = example.bulk.engine();
+    const Eigen::MatrixXd before =
+        matrix_of([&](const Eigen::VectorXd& x, Eigen::VectorXd& y) { y = engine.times(x); },
+                  j.n_displacements());
+    EXPECT_LT(relative_difference(before, k), 1e-14);
+    const auto added = std::make_shared<const SparseMatrix>(added_to_bulk(j, springs));
+    EXPECT_LT(relative_difference(k + Eigen::MatrixXd(*added), (s_u + s_u.transpose()) / 2), 1e-14);
+    engine.with(added);
+    const Eigen::VectorXd x = Eigen::VectorXd::Random(j.n_displacements());
+    EXPECT_LT(relative_difference(engine.times(x), k * x), 1e-13);
+    EXPECT_EQ(engine.diagonal(), k.diagonal());
+    EXPECT_EQ(augmenting_springs(j), springs);
+    engine.with(nullptr);
+    EXPECT_EQ(matrix_of([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = engine.times(v); },
+                        j.n_displacements()),
+              before);
   }
 }
 
 TEST(Augmented, SpringsAreAsStiffAsTheCellsAtTheNode) {
   const CoupledExample example;
   const SaddlePoint& j = example.stick;
-  const AugmentedJacobian augmented = augment(j);
+  const Eigen::VectorXd springs = augmenting_springs(j);
   for (int k = 0; k < j.n_multipliers(); ++k) {
     const Eigen::VectorXd c = Eigen::VectorXd(j.constraint.col(k));
     double square = 0;
@@ -162,7 +190,7 @@ TEST(Augmented, SpringsAreAsStiffAsTheCellsAtTheNode) {
         if (c[a] != 0 && c[b] != 0) square += std::pow(j.leading().coeff(a, b), 2);
       }
     }
-    EXPECT_NEAR(augmented.springs[k] * c.squaredNorm() / std::sqrt(square), 1, 1e-12);
+    EXPECT_NEAR(springs[k] * c.squaredNorm() / std::sqrt(square), 1, 1e-12);
   }
 }
 
