@@ -17,6 +17,7 @@
 #include "simulator/flow/field_file.h"
 #include "simulator/grid_scene/grid_pictures.h"
 #include "simulator/grid_scene/grid_scene.h"
+#include "simulator/reading/read_scene.h"
 
 namespace faultsim {
 namespace {
@@ -61,6 +62,7 @@ class FromGrid {
     const GridScene made = grid_scene::grid_scene(grid, structure, options_, pressures.field.get());
     check_targets(made);
     write(grid, structure, made);
+    say_refusal();
     return ExitCode::done;
   }
 
@@ -186,6 +188,19 @@ class FromGrid {
               << " tables, a report and two pictures beside it\nnext: look at "
               << beside("-map.svg").string() << ", then faultsim validate "
               << arguments_.output.string() << "\n";
+  }
+
+  /// Horizons of a grid may leave no body between them, which only the builder finds out. The scene
+  /// is written all the same: its pictures say more than a refusal.
+  void say_refusal() const {
+    try {
+      read_scene(read_json_file(arguments_.output));
+    } catch (const InputError& error) {
+      std::cerr
+          << "warning: as it stands validate refuses what was written; the keys that are named, "
+             "or options of init from-grid, change it\n"
+          << error.what() << "\n";
+    }
   }
 
   const FromGridArguments& arguments_;

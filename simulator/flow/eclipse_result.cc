@@ -112,9 +112,24 @@ class EclipseReader : EclipseProblems {
       if (grid.active_index(ijk[0], ijk[1], ijk[2]) < 0) continue;
       std::array<double, 8> x, y, depth;
       grid.getCellCorners(cell, x, y, depth);
+      stand_upright(arrays, ijk, x, y);
       take_cell(x, y, depth, metre);
     }
     if (cells_.empty()) refuse(files_.grid, "has no active cell", "");
+  }
+
+  /// A pillar whose points lie at one depth has one place in the map (corner_point/Pillar), which
+  /// opm-common's division by its height does not find.
+  static void stand_upright(const EclipseGrid& arrays, const std::array<int, 3>& ijk,
+                            std::array<double, 8>& x, std::array<double, 8>& y) {
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t i = static_cast<std::size_t>(ijk[0]) + k % 2,
+                        j = static_cast<std::size_t>(ijk[1]) + k / 2 % 2;
+      const std::size_t pillar = 6 * (i + (static_cast<std::size_t>(arrays.size[0]) + 1) * j);
+      if (arrays.coord.at(pillar + 2) != arrays.coord.at(pillar + 5)) continue;
+      x[k] = static_cast<double>(arrays.coord[pillar]);
+      y[k] = static_cast<double>(arrays.coord[pillar + 1]);
+    }
   }
 
   /// m per unit of the grid. Pressures lie where the faults of the same files do (corner_point).

@@ -53,6 +53,8 @@ class Planner {
     plan.levels = find_levels(body_, plan.map, plan.cut, pillars, horizons, problems_);
     stop_at_problems();
     place_nodes(plan, pillars);
+    check_meetings(body_, plan.map, pillars, plan.nodes.z, problems_);
+    stop_at_problems();
     return plan;
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -177,6 +178,7 @@ class LineDrawer {
   std::vector<Problem>& problems_;
   SurfaceLines made_;
   std::vector<Vector2d> across_;  ///< per point of the trace, as FaultShape has it.
+  bool bends_round_ = false;      ///< the trace, by more than a quarter of a turn.
 };
 
 void LineDrawer::take_range() {
@@ -261,6 +263,25 @@ std::vector<double> crossings(const std::vector<LevelLine>& lines, const Vector2
   return found;
 }
 
+/// By how much the directions of a line differ at most, rad: 2 pi and more of a spiral.
+double turn_of(const LevelLine& line) {
+  double angle = 0, least = 0, most = 0;
+  for (std::size_t k = 1; k + 1 < line.size(); ++k) {
+    const Vector2d before = line[k] - line[k - 1], after = line[k + 1] - line[k];
+    angle += std::atan2(before.x() * after.y() - before.y() * after.x(), before.dot(after));
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+  }
+  return most - least;
+}
+
+/// Whether a place across a point of a trace belongs to another part of it: a trace that bends
+/// round lies across itself.
+bool is_of_another_part(const LevelLine& trace, const Vector2d& point, const Vector2d& place,
+                        double cell) {
+  return nearest_on_line(trace, place).distance < (place - point).norm() / 2 - cell;
+}
+
 /// A line with its first and last piece made longer.
 LevelLine prolonged(LevelLine line, double by) {
   const std::size_t n = line.size();
@@ -278,7 +299,10 @@ std::vector<double> LineDrawer::hits(const std::vector<LevelLine>& lines, std::s
   const Vector2d &at = made_.trace[point], n = across_[point].normalized();
   const auto here = [&](const std::vector<LevelLine>& of) {
     std::vector<double> found = crossings(of, at, n);
-    std::erase_if(found, [&](double shift) { return std::abs(shift) > reach; });
+    std::erase_if(found, [&](double shift) {
+      return std::abs(shift) > reach ||
+             (bends_round_ && is_of_another_part(made_.trace, at, at + shift * n, cell_));
+    });
     return mapped(found, [&](double shift) { return shift / across_[point].norm(); });
   };
   const std::vector<double> found = here(lines);
@@ -343,6 +367,7 @@ void LineDrawer::take_profiles() {
   body.base = made_.bottom;
   const FaultShape shape(body, bare, made_.trace);
   for (std::size_t k = 0; k < made_.trace.size(); ++k) across_.push_back(shape.across(k));
+  bends_round_ = turn_of(made_.trace) > std::numbers::pi / 2;
   made_.profiles.resize(made_.trace.size());
   made_.reached.assign(made_.trace.size(), {made_.top, made_.bottom});
   for (const double z : depths())

@@ -137,7 +137,9 @@ void LevelFinder::check_order() {
     const std::string above = k == 0 ? "the top of the box" : name(k - 1);
     const std::string below = k == body_.horizons.size() ? "the base of the box" : name(k);
     complain(concat("/horizons/", std::min(k, body_.horizons.size() - 1)),
-             concat(above, " and ", below, " touch or cross, worst by ", -worst, " m"),
+             concat(above, " and ", below,
+                    worst > 0 ? concat(" touch: ", decimal(worst, 2), " m between them")
+                              : concat(" cross, worst by ", decimal(-worst, 1), " m")),
              cut_.vertex[where], k == 0 ? body_.top : levels_.horizons[where][k - 1],
              "keep a layer between them, less throw, or a box that holds them");
   }

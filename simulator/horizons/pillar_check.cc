@@ -7,6 +7,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/horizons/fault_shape.h"
+#include "simulator/horizons/traces.h"
 
 namespace faultsim::horizons {
 namespace {
@@ -126,14 +127,40 @@ void check_faults_in_depth(const LayeredBody& body, const MapMesh& map,
   }
 }
 
+void check_meetings(const LayeredBody& body, const MapMesh& map, const Pillars& pillars,
+                    const std::vector<std::vector<double>>& z, std::vector<Problem>& problems) {
+  const double most = 1e-6 * body.cells.at_faults;
+  const auto first_off = [&](int v) {
+    return std::ranges::find_if(z[v],
+                                [&](double at) { return !(pillars.off_faults(v, at) <= most); });
+  };
+  for (int f = 0; f < map.n_faults; ++f)
+    for (const int v : map.lines[f]) {
+      const auto at = first_off(v);
+      if (at == z[v].end()) continue;
+      problems.push_back(
+          {concat("/faults/", f), 0,
+           concat("the line in which \"", body.faults[f].name, "\" meets another fault, at ",
+                  map_place(map.vertices[v]), " at the depth of traces, is not found at z ",
+                  decimal(*at, 1), " m"),
+           "let them meet at a larger angle, or let their dips change less along "
+           "their traces"});
+      break;
+    }
+}
+
 void check_pillars(const LayeredBody& body, const MapMesh& map, const Pillars& pillars,
                    std::vector<Problem>& problems) {
+  const std::vector<double> depths = depths_to_check(body, pillars);
+  const std::size_t n_before = problems.size();
+  check_meetings(body, map, pillars, std::vector(map.vertices.size(), depths), problems);
+  if (problems.size() > n_before) return;
   constexpr double kLeast = 0.1;
   double worst = kLeast, worst_z = 0;
   std::size_t count = 0;
   Vector2d place = Vector2d::Zero();
   std::vector<Vector2d> moved(map.vertices.size());
-  for (const double z : depths_to_check(body, pillars)) {
+  for (const double z : depths) {
     for (std::size_t v = 0; v < moved.size(); ++v)
       moved[v] = pillars.in_map(static_cast<int>(v), z);
     for (const std::array<int, 3>& t : map.triangles) {

@@ -73,6 +73,7 @@ double Pillars::value(const FieldRule& rule, double z, const Vector2d& moved) co
 
 /// A pillar's way put back on its faults at a depth, along which it may have slid. Where it is on
 /// two, by Newton: its rules are straight where the profiles that it lies between stay the same.
+/// Whether that found a place is for off_faults() to say.
 Vector2d Pillars::on_faults(std::size_t vertex, double z, const Vector2d& moved) const {
   const std::vector<FieldRule>& rules = field_.rules(vertex);
   if (rules.size() == 1) {
@@ -139,6 +140,17 @@ Vector2d Pillars::in_map(int vertex, const PillarDepth& depth) const {
   const Vector2d moved = low + depth.part * (high - low);
   if (!is_put_back_[vertex]) return vertices_[vertex] + moved;
   return vertices_[vertex] + on_faults(static_cast<std::size_t>(vertex), depth.z, moved);
+}
+
+double Pillars::off_faults(int vertex, double z) const {
+  if (!is_put_back_[vertex]) return 0;
+  const Vector2d moved = in_map(vertex, z) - vertices_[vertex];
+  double most = 0;
+  for (const FieldRule& rule : field_.rules(static_cast<std::size_t>(vertex))) {
+    const double off = std::abs(rule.direction.dot(moved) - value(rule, z, moved));
+    if (!(off <= most)) most = off;
+  }
+  return most;
 }
 
 Eigen::Vector3d Pillars::at(int vertex, double z) const {

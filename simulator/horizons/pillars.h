@@ -34,6 +34,10 @@ class Pillars {
   Eigen::Vector2d in_map(int vertex, const PillarDepth& depth) const;
   Eigen::Vector2d in_map(int vertex, double z) const { return in_map(vertex, depth(z)); }
   Eigen::Vector3d at(int vertex, double z) const;
+  /// How far a pillar is at a depth from the faults that it lies on and that change their dip, m.
+  /// 0 but for rounding, unless two of them meet there and Newton's method did not find the place,
+  /// as where they run side by side: then it is larger, or not finite.
+  double off_faults(int vertex, double z) const;
   /// z of the knots, ascending.
   const std::vector<double>& depths() const { return depths_; }
 

@@ -34,20 +34,36 @@ void check_sizes(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
   }
 }
 
-void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
-  for (size_t i = 0; i < spec.blocks.size(); ++i) {
-    const std::string pointer = concat("/geometry/blocks/", i, "/offset");
-    const DepthInterval range = reservoir_range(spec, spec.blocks[i]);
-    const double overshoot = std::max(overshoot_of(spec, i), overshoot_of(spec, i + 1));
-    if (!(range.top - overshoot > 0))
-      problems.push_back({pointer, 0, "puts the top of a fault at or above the surface",
-                          "use a larger offset or a smaller fault_overshoot"});
-    if (!(range.bottom + overshoot < spec.depth))
+/// Where faults end in depth: by fault_overshoot beside blocks, which offsets move, or by their
+/// own.
+void check_fault_ends(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  const auto check = [&](const DepthInterval& range, const std::string& pointer,
+                         const char* to_lower, const char* to_raise) {
+    if (!(range.top > 0))
+      problems.push_back({pointer, 0, "puts the top of a fault at or above the surface", to_lower});
+    if (!(range.bottom < spec.depth))
       problems.push_back({pointer, 0,
-                          concat("puts the foot of a fault at ", range.bottom + overshoot,
+                          concat("puts the foot of a fault at ", range.bottom,
                                  " m, at or below the base of the model"),
-                          "use a smaller offset or fault_overshoot, or a deeper model"});
+                          to_raise});
+  };
+  for (size_t i = 0; i < spec.blocks.size(); ++i) {
+    const DepthInterval range = reservoir_range(spec, spec.blocks[i]);
+    const double overshoot = common_overshoot(spec, i);
+    check({range.top - overshoot, range.bottom + overshoot},
+          concat("/geometry/blocks/", i, "/offset"),
+          "use a larger offset or a smaller fault_overshoot",
+          "use a smaller offset or fault_overshoot, or a deeper model");
   }
+  for (size_t f = 0; f <= spec.blocks.size(); ++f) {
+    if (has_own_overshoot(spec, f))
+      check(fault_range(spec, f), concat("/faults/", f, "/overshoot"), "use a smaller overshoot",
+            "use a smaller overshoot or a deeper model");
+  }
+}
+
+void check_faults(const FieldMeshSpec& spec, std::vector<Problem>& problems) {
+  check_fault_ends(spec, problems);
   for (size_t i = 0; i < spec.fault_dips.size(); ++i)
     if (!(std::abs(spec.fault_dips[i]) <= kMaxDip))
       problems.push_back({concat("/faults/", i, "/dip_from_vertical"), 0, "is more than 45 deg",

@@ -53,7 +53,7 @@ void check_field_extent(SceneReader& reader, const FieldGeometry& field) {
 void check_offsets(SceneReader& reader, const FieldGeometry& field) {
   for (std::size_t i = 0; i < field.blocks.size(); ++i) {
     const Block& block = field.blocks[i];
-    const double margin = std::max(overshoot_of(field, i), overshoot_of(field, i + 1));
+    const double margin = common_overshoot(field, i);
     const DepthInterval reservoir = reservoir_range(field, block);
     const double top = reservoir.top - margin;
     const double bottom = reservoir.bottom + margin;
@@ -68,6 +68,24 @@ void check_offsets(SceneReader& reader, const FieldGeometry& field) {
                               " and below " +
                               metres(field.depth - margin - reservoir.bottom + block.offset)
                         : "a smaller fault_overshoot or a larger depth"));
+  }
+}
+
+/// Faults with an overshoot of their own, beside reservoirs that lie within the model.
+void check_own_overshoots(SceneReader& reader, const Scene& scene) {
+  const FieldGeometry& field = scene.field;
+  for (std::size_t f = 0; f < scene.faults.size() && f <= field.blocks.size(); ++f) {
+    if (!has_own_overshoot(field, f) || field.blocks.empty()) continue;
+    const double own = overshoot_of(field, f);
+    const DepthInterval range = fault_range(field, f);
+    const double most = std::min(range.top + own, field.depth - range.bottom + own);
+    if (!(own >= most) || !(most > 0)) continue;
+    const std::string pointer = element("/faults", f) + "/overshoot";
+    reader.problem(pointer,
+                   "the fault \"" + scene.faults[f].name + "\" reaches from " + metres(range.top) +
+                       " to " + metres(range.bottom) + " depth, out of the model",
+                   "keep it between 0 m and " + metres(field.depth) + ": an overshoot below " +
+                       metres(most) + ", or a larger depth");
   }
 }
 
@@ -245,6 +263,7 @@ void check_geometry(SceneReader& reader, const Scene& scene) {
     for (std::size_t i = 0; i < scene.faults.size(); ++i)
       check_field_ends(reader, element("/faults", i) + "/", scene.field);
     check_offsets(reader, scene.field);
+    check_own_overshoots(reader, scene);
     check_crossing(reader, scene);
   } else if (!is_meshed(scene)) {
     check_box(reader, scene);

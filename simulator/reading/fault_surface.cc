@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -41,6 +42,17 @@ std::string_view without_quotes(std::string_view word) {
   return word;
 }
 
+/// Words that begin lines behind a header, never within one.
+bool is_behind_headers(std::string_view word) {
+  constexpr std::array<std::string_view, 10> kWords = {
+      "GOCAD",      "GOCAD_ORIGINAL_COORDINATE_SYSTEM",
+      "TFACE",      "VRTX",
+      "PVRTX",      "ATOM",
+      "PATOM",      "TRGL",
+      "PROPERTIES", "END"};
+  return contains(kWords, word);
+}
+
 /// One TSurf of a file.
 struct GocadSurface {
   std::string name;
@@ -55,12 +67,16 @@ class GocadReader {
  public:
   GocadReader(std::string_view text, const std::string& given) : given_(given) {
     for (int line = 1; !text.empty(); ++line) read_line(next_table_line(text), line);
+    if (header_line_ > 0) refuse_open_header();
+    if (all_.empty()) refuse(first_other_, "is no TSurf", "write the fault as a GOCAD TSurf");
   }
   DrawnSurface surface_of(const std::string& fault);
 
  private:
   void read_line(std::string_view line, int number);
+  void begin_object(const std::vector<std::string_view>& words, int line);
   void read_header(std::string_view line);
+  void refuse_open_header();
   void read_units(const std::vector<std::string_view>& words, int line);
   void read_node(const std::vector<std::string_view>& words, int line);
   void read_copy(const std::vector<std::string_view>& words, int line);
@@ -76,7 +92,9 @@ class GocadReader {
 
   std::string given_;
   std::vector<GocadSurface> all_;
-  bool is_in_header_ = false;
+  bool is_in_other_ = false;  ///< in an object that is no TSurf: a line, points, a well.
+  int first_other_ = 0;       ///< the line of the first of them.
+  int header_line_ = 0;       ///< of the header that is being read; 0: none is.
   std::vector<Problem> problems_;
 };
 
@@ -88,20 +106,28 @@ void GocadReader::refuse(int line, const std::string& what, const std::string& c
 void GocadReader::read_line(std::string_view line, int number) {
   const std::vector<std::string_view> words = words_of(line);
   if (words.empty() || words[0].front() == '#') return;
-  if (words[0] == "GOCAD") {
-    if (words.size() < 2 || words[1] != "TSurf")
-      return refuse(number, "is no TSurf", "write the fault as a GOCAD TSurf");
-    all_.emplace_back().line = number;
-    return;
-  }
-  if (all_.empty()) return;  // What stands before the first is refused with it.
-  if (words[0].starts_with("HEADER")) is_in_header_ = true;
-  if (is_in_header_) return read_header(line);
+  if (header_line_ > 0 && is_behind_headers(words[0])) refuse_open_header();
+  if (words[0] == "GOCAD") return begin_object(words, number);
+  if (is_in_other_) return;
+  if (words[0].starts_with("HEADER")) header_line_ = number;
+  if (header_line_ > 0) return read_header(line);
   if (words[0] == "AXIS_UNIT") return read_units(words, number);
   if (words[0] == "ZPOSITIVE" && words.size() > 1) return read_sense(words[1], number);
   if (words[0] == "VRTX" || words[0] == "PVRTX") return read_node(words, number);
   if (words[0] == "ATOM" || words[0] == "PATOM") return read_copy(words, number);
   if (words[0] == "TRGL") return read_triangle(words, number);
+}
+
+/// Objects of other kinds have points too, which are none of a surface's.
+void GocadReader::begin_object(const std::vector<std::string_view>& words, int line) {
+  is_in_other_ = words.size() < 2 || words[1] != "TSurf";
+  if (!is_in_other_) all_.emplace_back().line = line;
+  if (is_in_other_ && first_other_ == 0) first_other_ = line;
+}
+
+void GocadReader::refuse_open_header() {
+  refuse(header_line_, "the HEADER is not closed", "end it with }");
+  header_line_ = 0;
 }
 
 void GocadReader::read_sense(std::string_view sense, int line) {
@@ -130,7 +156,7 @@ void GocadReader::read_header(std::string_view line) {
       all_.back().name = without_quotes(name);
     }
   }
-  if (line.find('}') != std::string_view::npos) is_in_header_ = false;
+  if (line.find('}') != std::string_view::npos) header_line_ = 0;
 }
 
 void GocadReader::read_units(const std::vector<std::string_view>& words, int line) {
@@ -166,6 +192,11 @@ void GocadReader::read_node(const std::vector<std::string_view>& words, int line
     if (!value)
       return refuse(line, concat(words[0], " ", *number, " has no three coordinates"),
                     "write its x, y and z");
+    if (!(std::abs(*value) <= kLengthRange.high))
+      return refuse(line,
+                    concat(words[0], " ", *number, ": ", table_quote(words[place]), " is beyond ",
+                           kLengthRange.text),
+                    "write coordinates in m or ft, as AXIS_UNIT says");
     at[axis] = *value;
   }
   if (!all_.back().nodes.emplace(*number, at).second)
@@ -180,7 +211,8 @@ void GocadReader::read_copy(const std::vector<std::string_view>& words, int line
   if (found == all_.back().nodes.end())
     return refuse(line, concat("there is no point ", *of), "write points before what names them");
   const Vector3d at = found->second;
-  all_.back().nodes.emplace(*number, at);
+  if (!all_.back().nodes.emplace(*number, at).second)
+    refuse(line, concat("point ", *number, " is there already"), "number points apart");
 }
 
 void GocadReader::read_triangle(const std::vector<std::string_view>& words, int line) {
@@ -333,12 +365,26 @@ void StickReader::read_row(const StickColumns& columns) {
   made_.points.emplace_back(*x, *y, up);
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
+}
+
+/// Comments may stand before the first object.
+bool is_gocad(std::string_view text) {
+  while (!text.empty()) {
+    const std::vector<std::string_view> words = words_of(next_table_line(text));
+    if (!words.empty() && words[0].front() != '#') return words[0] == "GOCAD";
+  }
+  return false;
+}
+
 }  // namespace
 
 DrawnSurface parse_fault_surface(const std::string& text, const std::string& given,
                                  const std::string& fault) {
-  if (std::string_view(text).starts_with("GOCAD"))
-    return GocadReader(text, given).surface_of(fault);
+  const std::string_view gocad = without_byte_order_mark(text);
+  if (is_gocad(gocad)) return GocadReader(gocad, given).surface_of(fault);
   return StickReader(text, given).read();
 }
 

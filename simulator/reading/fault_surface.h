@@ -27,7 +27,8 @@ namespace faultsim {
 ///
 ///   stick, x [m], y [m], depth [m]
 ///
-/// with z [m] in place of depth, neighbours in order. What begins with "GOCAD" is a TSurf.
+/// with z [m] in place of depth, neighbours in order. What begins with "GOCAD", behind comments
+/// (#), is a TSurf; objects of other kinds in its file do not count.
 /// @param given  its name for messages. @param fault  the fault's name.
 /// @throws InputError with all that is wrong, line by line.
 horizons::DrawnSurface parse_fault_surface(const std::string& text, const std::string& given,

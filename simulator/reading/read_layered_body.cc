@@ -64,6 +64,8 @@ class BodyReader {
   void read_profiles(const std::string& at, LayeredFault& fault);
   void read_listric(const std::string& at, LayeredFault& fault);
   void read_fault_surface(const std::string& at, LayeredFault& fault);
+  bool refuse_longer(const std::string& pointer, const std::string& fault,
+                     const std::vector<Vector2d>& trace);
   void read_dips(const std::string& at, LayeredFault& fault);
   void read_throw(const std::string& at, LayeredFault& fault);
   void read_cells();
@@ -240,12 +242,30 @@ void BodyReader::read_fault_surface(const std::string& at, LayeredFault& fault) 
       horizons::lines_of(surface, fault.trace, body_.trace_depth, body_.cells.at_faults, pointer,
                          fault.name, problems);
   for (const Problem& one : problems) reader_.problem(one.pointer, one.what, one.cure);
-  if (!problems.empty()) return;
+  if (!problems.empty() || (fault.trace.empty() && refuse_longer(pointer, fault.name, lines.trace)))
+    return;
   fault.trace = lines.trace;
   fault.profiles = lines.profiles;
   reached_[body_.faults.size()] = lines.reached;
   if (!fault.top && lines.top < body_.top) fault.top = lines.top;
   if (!fault.bottom && lines.bottom > body_.base) fault.bottom = lines.bottom;
+}
+
+/// A surface whose line leaves the box, as the builder would say of a trace.
+bool BodyReader::refuse_longer(const std::string& pointer, const std::string& fault,
+                               const std::vector<Vector2d>& trace) {
+  const auto is_outside = [&](const Vector2d& at) {
+    return (body_.low - at).cwiseMax(at - body_.high).maxCoeff() > body_.cells.at_faults;
+  };
+  const auto outside = std::ranges::find_if(trace, is_outside);
+  if (outside == trace.end()) return false;
+  reader_.problem(
+      pointer,
+      concat("the surface of \"", fault, "\" is longer than the box, which it leaves at ",
+             horizons::map_place(*outside)),
+      "write a \"trace\", its line as far as it is to lie in the box: it goes down as "
+      "the surface does; or enlarge the box");
+  return true;
 }
 
 /// One dip, or one for each point of the trace.

@@ -50,6 +50,15 @@ double overshoot_of(const FieldGeometry& field, std::size_t fault) {
   return field.fault_extents[fault].overshoot.value_or(field.fault_overshoot);
 }
 
+bool has_own_overshoot(const FieldGeometry& field, std::size_t fault) {
+  return fault < field.fault_extents.size() && field.fault_extents[fault].overshoot.has_value();
+}
+
+double common_overshoot(const FieldGeometry& field, std::size_t block) {
+  const bool are_own = has_own_overshoot(field, block) && has_own_overshoot(field, block + 1);
+  return are_own ? 0 : field.fault_overshoot;
+}
+
 DepthInterval fault_range(const FieldGeometry& field, std::size_t fault) {
   DepthInterval range{HUGE_VAL, -HUGE_VAL};
   for (const Block& block : blocks_beside(field, fault)) range.unite(reservoir_range(field, block));

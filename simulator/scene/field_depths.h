@@ -38,6 +38,10 @@ std::span<const Block> blocks_beside(const FieldGeometry& field, std::size_t fau
 /// How far a fault reaches beyond the reservoirs beside it, m: its own overshoot or
 /// fault_overshoot.
 double overshoot_of(const FieldGeometry& field, std::size_t fault);
+bool has_own_overshoot(const FieldGeometry& field, std::size_t fault);
+/// How far the faults beside a block reach beyond its reservoir by fault_overshoot, m: 0 where both
+/// have an overshoot of their own.
+double common_overshoot(const FieldGeometry& field, std::size_t block);
 /// From its overshoot above the shallowest to its overshoot below the deepest edge of the
 /// reservoirs beside the fault.
 DepthInterval fault_range(const FieldGeometry& field, std::size_t fault);

@@ -40,6 +40,7 @@ struct Deck {
   std::vector<float> map_axes = {};  ///< none: MAPAXES is not there.
   std::string map_unit = "";
   std::string relative_to = "";                ///< "MAP": coordinates are on the map.
+  double foot_of_pillars = 2200;               ///< m; their heads lie at 1900.
   std::array<int, 3> time_of_day = {0, 0, 0};  ///< hours, minutes, microseconds; of all reports.
 };
 
@@ -74,7 +75,7 @@ class EclipseResult : public testing::Test {
     };
     for (int j = 0; j <= 2; ++j) {
       for (int i = 0; i <= 3; ++i) {
-        for (const double depth : {1900.0, 2200.0}) {
+        for (const double depth : {1900.0, deck.foot_of_pillars}) {
           put(coord, 100 * i);
           put(coord, 200 * j);
           put(coord, depth);
@@ -143,6 +144,20 @@ TEST_F(EclipseResult, HasItsActiveCellsWhereTheyAre) {
   EXPECT_NEAR(field.cells[1].low.x(), 200, 1e-3);
   EXPECT_NEAR(field.cells[1].high.z(), -2025, 1e-3);
   EXPECT_NEAR(field.cells[1].low.z(), -2045, 1e-3);
+}
+
+/// As some programs write vertical pillars: both points are one.
+TEST_F(EclipseResult, APillarOfOnePointStandsUpright) {
+  write_restart({});
+  write_grid({});
+  const FlowField field = read();
+  write_grid({.foot_of_pillars = 1900});
+  const FlowField same = read();
+  ASSERT_EQ(same.cells.size(), field.cells.size());
+  for (std::size_t c = 0; c < field.cells.size(); ++c) {
+    EXPECT_LT((same.cells[c].low - field.cells[c].low).norm(), 1e-3);
+    EXPECT_LT((same.cells[c].high - field.cells[c].high).norm(), 1e-3);
+  }
 }
 
 TEST_F(EclipseResult, ReportsHaveATimeOfDay) {

@@ -289,14 +289,13 @@ TEST(BuildBody, AnXIsFoundByCut) {
 TEST(BuildBody, HorizonsThatCrossAreRefusedWithPlace) {
   LayeredBody body = reservoir_body();
   body.horizons[0].depth = PlaneDepth{-1900, {0, 0}, {0.1, 0}};
-  EXPECT_THAT(
-      refusal_of(body),
-      HasSubstr("/horizons/1: \"top\" and \"bottom\" touch or cross, worst by 100 m at x -3000"));
+  EXPECT_THAT(refusal_of(body),
+              HasSubstr("/horizons/1: \"top\" and \"bottom\" cross, worst by 100 m at x -3000"));
   body.horizons[0].depth = ConstantDepth{10};
-  EXPECT_THAT(refusal_of(body), HasSubstr("the top of the box and \"top\" touch or cross"));
+  EXPECT_THAT(refusal_of(body), HasSubstr("the top of the box and \"top\" cross"));
   body.horizons[0].depth = ConstantDepth{-1900};
   body.horizons[1].depth = ConstantDepth{-4000};
-  EXPECT_THAT(refusal_of(body), HasSubstr("\"bottom\" and the base of the box touch or cross"));
+  EXPECT_THAT(refusal_of(body), HasSubstr("\"bottom\" and the base of the box cross"));
 }
 
 TEST(BuildBody, AllNumbersThatMakeNoSenseAreToldAtOnce) {

@@ -80,6 +80,19 @@ double shift(const SurfaceLines& lines, std::size_t point, double z) {
   return FaultShape(body, fault, lines.trace).shift_at(point, z);
 }
 
+/// Three quarters of a cone that narrows downwards: across each place of it lies another part.
+TEST(DrawnSurface, ThatBendsRoundDoesNotFoldBack) {
+  const auto cone = [](double u, double z) {
+    const double radius = 800 - 0.2 * (kTraceZ - z), angle = 1.5 * std::numbers::pi * u;
+    return Vector2d(radius * std::cos(angle), radius * std::sin(angle));
+  };
+  const SurfaceLines lines = drawn(triangulated(-2900, -1300, cone));
+  ASSERT_GT(lines.profiles.size(), 20u);
+  for (const DipProfile& profile : lines.profiles)
+    for (const DipPoint& point : profile)
+      EXPECT_NEAR(std::abs(point.shift), 0.2 * std::abs(point.z - kTraceZ), 15) << point.z;
+}
+
 TEST(DrawnSurface, OfAPlaneIsAPlane) {
   const DrawnSurface plane = triangulated(-2900, -1300, on_plane);
   for (const bool by_sticks : {false, true}) {

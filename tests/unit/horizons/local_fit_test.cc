@@ -72,6 +72,20 @@ TEST(LocalFit, MeetsAPointAtThePlaceAndDoesNotRunOff) {
   EXPECT_LT(std::abs(fit.at({-5000, 0}) + 2000), 200) << "by the slope to there it would be 500 m";
 }
 
+/// Rows of points 60, 160 and 260 m away, of which the first two are a slope and the last a level:
+/// a parabola through them would be 32 m above the first at the place.
+TEST(LocalFit, DoesNotFollowASharpBendOutOfThePoints) {
+  std::vector<Eigen::Vector3d> points;
+  for (int k = 0; k < 15; ++k) {
+    const int row = k / 5;
+    points.emplace_back(60 + 100 * row, 100 * (k % 5) - 200, row == 0 ? 0 : -29 - row);
+  }
+  const LocalFit fit(seen_from({0, 0}, points));
+  EXPECT_GT(fit.at({0, 0}), 0);
+  EXPECT_LT(fit.at({0, 0}), 27);
+  EXPECT_NEAR(fit.at({60, 0}), 0, 1) << "within them nothing is cut";
+}
+
 /// By the signs of turns, nothing sorted into bins.
 bool do_cross(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const auto turn = [](const Vector2d& p, const Vector2d& q, const Vector2d& r) {

@@ -190,6 +190,29 @@ TEST(Pillars, ThatCrossAreRefusedWithPlace) {
   EXPECT_THAT(problems[0].what, HasSubstr("pillars cross beside \"F\", worst at x "));
 }
 
+/// The lean of the main fault changes from 0 to -0.5 within 100 m, where the branch leans to: 1 km
+/// down Newton's steps go from one side of that to the other for ever.
+TEST(Pillars, OfTwoFaultsWhoseLineIsNotFoundAreRefusedWithPlace) {
+  LayeredBody body = reservoir_body();
+  LayeredFault main = dipping_fault(), branch = oblique_branch();
+  main.trace = {{0, -2000}, {0, 0}, {0, 100}, {0, 2000}};
+  main.profiles.clear();
+  for (const double lean : {0.0, 0.0, -0.5, -0.5}) main.profiles.push_back(straight_profile(lean));
+  branch.profiles = {straight_profile(-0.416)};
+  body.faults = {main, branch};
+  const MadePillars made(body);
+  const std::vector<Problem> problems = made.problems();
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0].pointer, "/faults/0");
+  EXPECT_EQ(problems[1].pointer, "/faults/1");
+  EXPECT_THAT(problems[0].what,
+              HasSubstr("the line in which \"F\" meets another fault, at x 0, y -300 m at the "
+                        "depth of traces, is not found at z "));
+  const int meeting = made.map.lines[1].front();
+  EXPECT_GT(made.pillars.off_faults(meeting, -3000), 1);
+  EXPECT_LT(made.pillars.off_faults(meeting, -2000), 1e-9);
+}
+
 TEST(Pillars, DipsThatChangeTooFastAreRefusedWithPlace) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault()};

@@ -1,4 +1,6 @@
 // Blocks and faults of a field that end where they say.
+#include <gmock/gmock.h>
+
 #include <map>
 
 #include "tests/unit/mesh/mesh_checks.h"
@@ -112,6 +114,26 @@ TEST(FieldExtents, FaultsReachAsFarAsTheySay) {
     EXPECT_EQ(n_inside, 2 * fault.nodes.size()) << "each there twice";
     for (const double end : {from[f], to[f]}) EXPECT_TRUE(lines_along(mesh).contains(end)) << end;
   }
+}
+
+TEST(FieldExtents, AFaultsOwnOvershootIsBlamedForItself) {
+  const auto pointers = [](const FieldMeshSpec& spec) {
+    std::vector<std::string> all;
+    try {
+      make_mesh(spec);
+    } catch (const InputError& error) {
+      for (const Problem& one : error.problems()) all.push_back(one.pointer);
+    }
+    return all;
+  };
+  using List = std::vector<std::string>;
+  FieldMeshSpec spec = small_field();
+  spec.fault_extents = {{}, {}, {.overshoot = 2900}};
+  EXPECT_EQ(pointers(spec), (List{"/faults/2/overshoot", "/faults/2/overshoot"})) << "top and foot";
+  spec.fault_extents = {};
+  spec.fault_overshoot = 2780;
+  EXPECT_THAT(pointers(spec), testing::Contains("/geometry/blocks/1/offset"));
+  EXPECT_THAT(pointers(spec), testing::Not(testing::Contains("/faults/2/overshoot")));
 }
 
 /// An end at that of the model is cut by it: its nodes are split, those of the other end are not.

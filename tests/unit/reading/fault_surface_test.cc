@@ -130,6 +130,33 @@ TEST(FaultSurface, AllThatIsWrongWithATSurfIsSaidByLine) {
             "1: the surface has no triangles; write its TRGL\n");
 }
 
+/// Comments before the first object, a mark of byte order, borders and wells beside the surface.
+TEST(FaultSurface, WhatStandsAroundATSurfIsNoPartOfIt) {
+  const std::string line = "GOCAD PLine 1\nHEADER {\nname:F\n}\nILINE\nVRTX 1 7 7 7\nEND\n";
+  for (const std::string& text :
+       {"# exported\n\n" + std::string(kSurface), "\xEF\xBB\xBF" + std::string(kSurface),
+        kSurface + line, line + kSurface}) {
+    const DrawnSurface surface = parse_fault_surface(text, "F.ts", "F");
+    ASSERT_EQ(surface.points.size(), 4u) << text;
+    EXPECT_EQ(surface.points[0], Vector3d(0, -100, -1500)) << text;
+  }
+  EXPECT_EQ(said("# exported\n" + line), "2: is no TSurf; write the fault as a GOCAD TSurf\n");
+}
+
+TEST(FaultSurface, AHeaderIsClosedAndPointsAreThereOnceWithinReach) {
+  EXPECT_EQ(said(changed(kSurface, "Main fault\n}", "Main fault")),
+            "2: the HEADER is not closed; end it with }\n");
+  EXPECT_EQ(said("GOCAD TSurf 1\nHEADER {\nname:F\n"),
+            "2: the HEADER is not closed; end it with }\n")
+      << "to the end of the file";
+  EXPECT_EQ(said(changed(kSurface, "ATOM 4 2", "ATOM 3 2")),
+            "20: point 3 is there already; number points apart\n");
+  EXPECT_EQ(said(changed(kSurface, "PVRTX 2 0 100 1500", "PVRTX 2 0 1e9 1500")),
+            "16: PVRTX 2: \"1e9\" is beyond -10000 km to 10000 km; write coordinates in m or ft, "
+            "as AXIS_UNIT says\n"
+            "20: there is no point 2; write points before what names them\n");
+}
+
 constexpr const char* kSticks = R"(# picked in depth
 stick, x [m], y [km], depth [m]
 A, 0, -1, 1500

@@ -90,8 +90,15 @@ TEST(FieldEnds, OfFaultsAreRefusedWithPlaceAndCure) {
               testing::HasSubstr("add y_to: without it that end is half of the common length"));
   EXPECT_EQ(pointer({{"/faults/2/y_from", "0 m"}, {"/faults/2/length", "1 km"}}),
             "/faults/2/length");
-  EXPECT_EQ(pointer({{"/faults/2/overshoot", "2.9 km"}}), "/geometry/blocks/1")
+  EXPECT_EQ(pointer({{"/faults/2/overshoot", "2.9 km"}}), "/faults/2/overshoot")
       << "out of the model";
+  EXPECT_EQ(problems_with({{"/faults/2/overshoot", "2.1 km"}})[0].cure,
+            "keep it between 0 m and 5000 m: an overshoot below 2000 m, or a larger depth");
+  EXPECT_THAT(
+      problems_with({{"/faults/2/overshoot", "1.9 km"}, {"/geometry/blocks/0/offset", "1.9 km"}}),
+      IsEmpty())
+      << "F3 is not beside the west block";
+  EXPECT_EQ(pointer({{"/geometry/blocks/1/offset", "2.7 km"}}), "/geometry/blocks/1/offset");
   EXPECT_EQ(pointer({{"/faults/2/width", "1 km"}}), "/faults/2/width") << "of a box";
   JsonDocument box = parse_json(starter_scene("box"), "box");
   set_value(box, "/faults/0/y_to", "100 m");

@@ -288,6 +288,17 @@ TEST_F(SurfaceScene, WhatIsWrongIsSaidAtItsPlace) {
                                           "the reservoir: at x "));
   shallow.value["faults"][0]["bottom"] = "2900 m";
   EXPECT_EQ(refusal(shallow), "");
+  JsonDocument longer = of_surface(
+      "stick, x [m], y [m], depth [m]\n1, 100, -3000, 1500\n1, -200, -3000, 2600\n"
+      "2, 100, 3000, 1500\n2, -200, 3000, 2600\n");
+  EXPECT_THAT(
+      refusal(longer),
+      testing::AllOf(HasSubstr("/faults/0/surface: the surface of \"F1\" is longer than the "
+                               "box, which it leaves at x "),
+                     HasSubstr("write a \"trace\", its line as far as it is to lie in")));
+  longer.value["faults"][0]["trace"] =
+      nlohmann::json::parse(R"([["-36 m", "-2 km"], ["-36 m", "2 km"]])");
+  EXPECT_EQ(refusal(longer), "");
   std::filesystem::remove(scratch_.path() / "F1.ts");
   EXPECT_THAT(refusal(two), HasSubstr("/faults/0/surface"));
 }
