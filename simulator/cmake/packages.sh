@@ -5,7 +5,8 @@ build_packages="g++ cmake ninja-build pkg-config libeigen3-dev libsuitesparse-de
   libopenblas-dev libhypre-dev libhdf5-dev libsqlite3-dev sqlite3 nlohmann-json3-dev libvalijson-dev libudunits2-dev
   libopenmpi-dev openmpi-bin libcli11-dev libxxhash-dev libboost-dev"
 test_packages="libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev python3
-  chromium chromium-driver python3-selenium fonts-liberation python3-pandas python3-h5py gmsh"
+  chromium chromium-driver python3-selenium fonts-liberation python3-pandas python3-h5py gmsh
+  python3-dev python3-numpy pybind11-dev mypy python3-pip lintian dpkg-dev"   # the module for Python; packages
 flow_packages="libopm-common-dev"   # optional: EGRID and restart files of flow simulators
 peer_packages="slurmctld slurmd slurm-client iproute2 procps libfclib-dev libsiconos-numerics-dev
   paraview python3-paraview libopm-simulators-bin"
