@@ -19,11 +19,6 @@ double heap_bytes() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-double scale_of(const SaddlePoint& j) {
-  if (j.n_multipliers() == 0) return 1;
-  return j.leading().diagonal().cwiseAbs().mean() / j.gram().cwiseSqrt().mean();
-}
-
 /// J with multiplier rows and columns times `scale`, and its preconditioner.
 struct ScaledSystem {
   const SaddlePoint& j;
@@ -82,6 +77,11 @@ SolverChoice solver_of(const std::string& leading, const std::string& schur) {
   return choice;
 }
 
+double scale_of_multipliers(const SaddlePoint& j) {
+  if (j.n_multipliers() == 0) return 1;
+  return j.leading().diagonal().cwiseAbs().mean() / j.gram().cwiseSqrt().mean();
+}
+
 int CoupledReport::iterations_to(double tolerance) const {
   for (int i = 0; i < static_cast<int>(residuals.size()); ++i) {
     if (residuals[i] <= tolerance) return i;
@@ -90,7 +90,8 @@ int CoupledReport::iterations_to(double tolerance) const {
 }
 
 struct CoupledSolver::Impl {
-  Impl(const SaddlePoint& j, const SolverChoice& choice) : system{j, choice.form, scale_of(j)} {
+  Impl(const SaddlePoint& j, const SolverChoice& choice)
+      : system{j, choice.form, scale_of_multipliers(j)} {
     const double start = processor_seconds(), before = heap_bytes();
     if (choice.schur == SchurKind::rac) {
       AugmentedJacobian augmented = augment(j);

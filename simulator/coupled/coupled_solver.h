@@ -37,6 +37,10 @@ struct CoupledReport {
   int iterations_to(double tolerance) const;
 };
 
+/// mean |diag K| / mean |column of C|: what rows and columns of multipliers are scaled by, Pa per
+/// scaled multiplier.
+double scale_of_multipliers(const SaddlePoint& j);
+
 /// Solves J (u, λ) = (f, g) by right-preconditioned GMRES without restart, from zero; J is not put
 /// together for it. With M ≈ K + E and S̃ ≈ S,
 ///
@@ -45,8 +49,8 @@ struct CoupledReport {
 ///
 /// SchurKind::rac replaces both by augmented.h's elimination with one leading solve.
 ///
-/// Rows and columns of multipliers are scaled by one number, mean |diag K| / mean |column of C|,
-/// so that residuals of both kinds count alike whatever the units.
+/// Rows and columns of multipliers are scaled by scale_of_multipliers, so that residuals of both
+/// kinds count alike whatever the units.
 class CoupledSolver {
  public:
   /// Sets the preconditioner up; `j` is kept by reference.
