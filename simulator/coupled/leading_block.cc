@@ -70,7 +70,7 @@ LinearMap leading_block(LeadingKind kind, SaddlePoint j, const FsaiOptions& fsai
     case LeadingKind::amg:
       return hypre_amg(std::move(a), motions);
     case LeadingKind::amg_by_component:
-      return hypre_amg_by_component(std::move(a));
+      return hypre_amg_by_component(std::move(a), motions);
     case LeadingKind::exact:
       break;
   }
