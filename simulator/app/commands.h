@@ -84,12 +84,14 @@ struct WorkerArguments {
 };
 
 struct SolverStudyArguments {
-  std::vector<std::string> cell_sizes = {"1/2", "1/4"};                              ///< h, "1/8".
+  std::vector<std::string> cases = {"box"}, stages = {"stick"};  ///< StudyCase, FaultStage, "all".
+  std::vector<std::string> cell_sizes = {"1/2", "1/4"};          ///< h of the box, "1/8".
   std::vector<std::string> leading = {"exact"}, schur = {"fsai+dir", "bds", "lsc"};  ///< or "all".
   std::string form = "upper";
   int fsai_steps = 0, fsai_step_size = 0;  ///< 0 = as FsaiOptions.
   double fsai_tolerance = 0;
   int max_iterations = 500;
+  std::filesystem::path export_to;  ///< folder for the systems; empty = they are solved.
   bool json = false;
 };
 

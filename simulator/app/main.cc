@@ -368,7 +368,18 @@ void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
 void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "solver-study", "preconditioners of the coupled path on a published cracked box");
-  command->add_option("--h", a.study.cell_sizes, "cell sizes: 1/2,1/4,1/8,1/16 … (default 1/2,1/4)")
+  command
+      ->add_option(
+          "--case", a.study.cases,
+          "box (default), stand-ins for field cases 15-cuts,field-a,field-b,field-c or all")
+      ->delimiter(',');
+  command
+      ->add_option("--stage", a.study.stages,
+                   "how nodes stand, of stick,slip,open or all: a history (default stick)")
+      ->delimiter(',');
+  command
+      ->add_option("--h", a.study.cell_sizes,
+                   "cell sizes of the box: 1/2,1/4,1/8,1/16 … (default 1/2,1/4)")
       ->delimiter(',');
   command
       ->add_option("--leading", a.study.leading,
@@ -390,13 +401,16 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
       ->check(CLI::PositiveNumber);
   command->add_option("--max-iterations", a.study.max_iterations, "of GMRES (default 500)")
       ->check(CLI::Range(1, 100000));
+  command->add_option("--export", a.study.export_to,
+                      "write the systems as PETSc's files into a folder, solve nothing");
   command->add_flag("--json", a.study.json, "machine-readable output on stdout");
   command->footer(
       "Examples:\n"
       "  faultsim solver-study --h 1/2 --leading all --schur all\n"
       "  faultsim solver-study --h 1/8 --leading exact,amg --json\n"
-      "Right-preconditioned GMRES without restart on J = [[K + E, C - F], [C^T, 0]], all nodes in\n"
-      "stick; iterations to 1e-6 and 1e-8 of a random and a physical right-hand side. See\n"
+      "  faultsim solver-study --case field-b --stage all --leading amg-u --schur rac\n"
+      "Right-preconditioned GMRES without restart on J = [[K + E, C - F], [C^T, 0]];\n"
+      "iterations to 1e-6 and 1e-8 of a random and a physical right-hand side. See\n"
       "docs/model.md, section 11.");
   command->callback([&] { code = solver_study_command(a.study); });
 }

@@ -3,19 +3,35 @@
 #include <nlohmann/json.hpp>
 
 #include "simulator/app/commands.h"
+#include "simulator/app/export_study.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/coupled/box_study.h"
 #include "simulator/coupled/solver_study.h"
+#include "simulator/coupled/study_cases.h"
 #include "simulator/files/json_text.h"
+#include "simulator/files/output_target.h"
 #include "simulator/linalg/blas.h"
 
 namespace faultsim {
 namespace {
 
+/// A body to be studied.
+struct StudyBody {
+  StudyCase which = StudyCase::box;
+  int cells_per_metre = 0;  ///< of the box.
+  BulkProblem problem() const {
+    return which == StudyCase::box ? box_study(cells_per_metre) : study_case(which);
+  }
+  std::string name() const {
+    return which == StudyCase::box ? concat("1/", cells_per_metre) : to_string(which);
+  }
+};
+
 /// What is to be studied, in order.
 struct Study {
-  std::vector<int> cells_per_metre;
+  std::vector<StudyBody> bodies;
+  std::vector<FaultStage> stages;
   std::vector<LeadingKind> leading;
   std::vector<SchurKind> schur;
   SolverChoice common;
@@ -54,9 +70,15 @@ int cells_per_metre(const std::string& h, std::vector<Problem>& problems) {
 Study read_study(const SolverStudyArguments& arguments) {
   std::vector<Problem> problems;
   Study study;
-  for (const std::string& h : arguments.cell_sizes) {
-    study.cells_per_metre.push_back(cells_per_metre(h, problems));
+  for (const StudyCase which : kinds_of<StudyCase>(arguments.cases, "--case", problems)) {
+    if (which != StudyCase::box) {
+      study.bodies.push_back({which});
+      continue;
+    }
+    for (const std::string& h : arguments.cell_sizes)
+      study.bodies.push_back({which, cells_per_metre(h, problems)});
   }
+  study.stages = kinds_of<FaultStage>(arguments.stages, "--stage", problems);
   study.leading = kinds_of<LeadingKind>(arguments.leading, "--leading", problems);
   study.schur = kinds_of<SchurKind>(arguments.schur, "--schur", problems);
   if (!problems.empty()) throw InputError("faultsim solver-study", problems);
@@ -68,12 +90,15 @@ Study read_study(const SolverStudyArguments& arguments) {
   return study;
 }
 
-nlohmann::ordered_json to_json(const StudyRow& row, int n) {
+nlohmann::ordered_json to_json(const StudyRow& row, const StudyBody& body, FaultStage stage) {
   const auto count = [](int iterations) {
     return iterations < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(iterations);
   };
   nlohmann::ordered_json out = {
-      {"h", concat("1/", n)},
+      {"case", to_string(body.which)},
+      {"h", body.which == StudyCase::box ? nlohmann::ordered_json(body.name())
+                                         : nlohmann::ordered_json()},
+      {"stage", to_string(stage)},
       {"displacement_dofs", row.n_displacements},
       {"multiplier_dofs", row.n_multipliers},
       {"leading_nonzeros", row.leading_nonzeros},
@@ -89,6 +114,7 @@ nlohmann::ordered_json to_json(const StudyRow& row, int n) {
       {"physical", {{"1e-6", count(row.physical.to_1e6)}, {"1e-8", count(row.physical.to_1e8)}}},
       {"setup_s", row.setup_seconds},
       {"solve_s", row.solve_seconds},
+      {"true_residual", row.true_residual},
       {"preconditioner_bytes", row.bytes}};
   if (!row.failure.empty()) out["failure"] = row.failure;
   return out;
@@ -96,16 +122,17 @@ nlohmann::ordered_json to_json(const StudyRow& row, int n) {
 
 void print_header() {
   std::printf(
-      "                                              random rhs     physical rhs    processor, "
+      "                                                    random rhs   physical rhs   processor, "
       "s\n");
-  std::printf("%-5s %9s %8s  %-6s %-10s  %6s %6s  %6s %6s  %7s %7s %7s\n", "h", "u dofs", "λ dofs",
-              "K + E", "Schur", "1e-6", "1e-8", "1e-6", "1e-8", "set-up", "solve", "MB");
+  std::printf("%-7s %8s %7s %-5s  %-6s %-9s  %5s %5s  %5s %5s  %7s %7s %7s\n", "h", "u dofs",
+              "λ dofs", "stage", "K + E", "Schur", "1e-6", "1e-8", "1e-6", "1e-8", "set-up",
+              "solve", "MB");
 }
 
-void print_row(const StudyRow& row, int n) {
+void print_row(const StudyRow& row, const StudyBody& body, FaultStage stage) {
   const auto text = [](int count) { return count < 0 ? std::string("-") : std::to_string(count); };
-  std::printf("%-5s %9d %8d  %-6s %-10s  %6s %6s  %6s %6s  %7.2f %7.2f %7.1f%s%s\n",
-              concat("1/", n).c_str(), row.n_displacements, row.n_multipliers,
+  std::printf("%-7s %8d %7d %-5s  %-6s %-9s  %5s %5s  %5s %5s  %7.2f %7.2f %7.1f%s%s\n",
+              body.name().c_str(), row.n_displacements, row.n_multipliers, to_string(stage),
               to_string(row.choice.leading), to_string(row.choice.schur),
               text(row.random.to_1e6).c_str(), text(row.random.to_1e8).c_str(),
               text(row.physical.to_1e6).c_str(), text(row.physical.to_1e8).c_str(),
@@ -114,28 +141,64 @@ void print_row(const StudyRow& row, int n) {
   std::fflush(stdout);
 }
 
+/// Writes the systems instead of solving them, each into a folder: box-8-stick, field-a-slip, …
+ExitCode export_systems(const Study& todo, const SolverStudyArguments& arguments) {
+  require_writable_folder("--export", arguments.export_to);
+  nlohmann::ordered_json exported = nlohmann::ordered_json::array();
+  for (const StudyBody& body : todo.bodies) {
+    const BulkProblem problem = body.problem();
+    const TwoSidedBulk bulk(problem);
+    for (const FaultStage stage : todo.stages) {
+      const std::string size =
+          body.which == StudyCase::box ? concat("-", body.cells_per_metre) : std::string();
+      const std::filesystem::path target =
+          arguments.export_to / concat(to_string(body.which), size, "-", to_string(stage));
+      export_study(target, bulk, make_saddle_point(bulk, stage_of(problem.mesh, stage)));
+      exported.push_back(target.string());
+      if (!arguments.json) std::printf("wrote %s\n", target.c_str());
+    }
+  }
+  const nlohmann::ordered_json none = nlohmann::ordered_json::array();
+  if (arguments.json) {
+    std::cout << json_text(nlohmann::ordered_json{{"rows", none}, {"exported", exported}});
+  }
+  return ExitCode::done;
+}
+
+/// All solvers on one system; visit(row).
+template <typename Visit>
+void study_system(const Study& todo, const TwoSidedBulk& bulk, const SaddlePoint& j,
+                  int max_iterations, const Visit& visit) {
+  for (const LeadingKind leading : todo.leading) {
+    for (const SchurKind schur : todo.schur) {
+      SolverChoice choice = todo.common;
+      choice.leading = leading;
+      choice.schur = schur;
+      visit(study(bulk, j, choice, max_iterations));
+    }
+  }
+}
+
 }  // namespace
 
 ExitCode solver_study_command(const SolverStudyArguments& arguments) {
   const Study todo = read_study(arguments);
   set_blas_threads(1);
+  if (!arguments.export_to.empty()) return export_systems(todo, arguments);
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   if (!arguments.json) print_header();
-  for (const int n : todo.cells_per_metre) {
-    const TwoSidedBulk bulk(box_study(n));
-    const SaddlePoint j = make_saddle_point(bulk);
-    for (const LeadingKind leading : todo.leading) {
-      for (const SchurKind schur : todo.schur) {
-        SolverChoice choice = todo.common;
-        choice.leading = leading;
-        choice.schur = schur;
-        const StudyRow row = study(bulk, j, choice, arguments.max_iterations);
+  for (const StudyBody& body : todo.bodies) {
+    const BulkProblem problem = body.problem();
+    const TwoSidedBulk bulk(problem);
+    for (const FaultStage stage : todo.stages) {
+      const SaddlePoint j = make_saddle_point(bulk, stage_of(problem.mesh, stage));
+      study_system(todo, bulk, j, arguments.max_iterations, [&](const StudyRow& row) {
         if (arguments.json) {
-          rows.push_back(to_json(row, n));
+          rows.push_back(to_json(row, body, stage));
         } else {
-          print_row(row, n);
+          print_row(row, body, stage);
         }
-      }
+      });
     }
   }
   if (arguments.json) std::cout << json_text(nlohmann::ordered_json{{"rows", rows}});

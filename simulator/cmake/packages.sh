@@ -9,7 +9,7 @@ test_packages="libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev pyth
   python3-dev python3-numpy pybind11-dev mypy python3-pip lintian dpkg-dev"   # the module for Python; packages
 flow_packages="libopm-common-dev"   # optional: EGRID and restart files of flow simulators
 peer_packages="slurmctld slurmd slurm-client iproute2 procps libfclib-dev libsiconos-numerics-dev
-  paraview python3-paraview libopm-simulators-bin"
+  paraview python3-paraview libopm-simulators-bin libpetsc-real-dev libmumps-dev"
 lint_packages="clang-tidy"
 
 install_packages() {  # package names

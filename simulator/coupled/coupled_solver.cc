@@ -20,13 +20,6 @@ double heap_bytes() {
   return static_cast<double>(info.uordblks + info.hblkhd);
 }
 
-double scale_of(const SaddlePoint& j) {
-  Eigen::Vector4d sums(j.leading_diagonal().cwiseAbs().sum(), j.n_displacements(),
-                       j.gram().cwiseSqrt().sum(), j.n_multipliers());
-  j.ranks().sum(sums);
-  return sums[3] == 0 ? 1 : sums[0] / sums[1] / (sums[2] / sums[3]);
-}
-
 /// J with multiplier rows and columns times `scale`, and its preconditioner.
 struct ScaledSystem {
   const SaddlePoint* jacobian;
@@ -87,6 +80,13 @@ SolverChoice solver_of(const std::string& leading, const std::string& schur) {
   return choice;
 }
 
+double scale_of_multipliers(const SaddlePoint& j) {
+  Eigen::Vector4d sums(j.leading_diagonal().cwiseAbs().sum(), j.n_displacements(),
+                       j.gram().cwiseSqrt().sum(), j.n_multipliers());
+  j.ranks().sum(sums);
+  return sums[3] == 0 ? 1 : sums[0] / sums[1] / (sums[2] / sums[3]);
+}
+
 int CoupledReport::iterations_to(double tolerance) const {
   for (int i = 0; i < static_cast<int>(residuals.size()); ++i) {
     if (residuals[i] <= tolerance) return i;
@@ -110,7 +110,7 @@ void require_runs_on_ranks(const SolverChoice& choice, int n_ranks) {
 
 struct CoupledSolver::Impl {
   Impl(const SaddlePoint& j, const SolverChoice& choice)
-      : system{&j, choice.form, scale_of(j)}, is_rac(choice.schur == SchurKind::rac) {
+      : system{&j, choice.form, scale_of_multipliers(j)}, is_rac(choice.schur == SchurKind::rac) {
     require_runs_on_ranks(choice, j.ranks().size());
     const double start = processor_seconds(), before = heap_bytes();
     if (is_rac) system.springs = augmenting_springs(j);
@@ -176,15 +176,12 @@ CoupledReport CoupledSolver::solve(const Eigen::VectorXd& f, const Eigen::Vector
   FAULTSIM_DEMAND(f.size() == n_u && g.size() == n_l, f.size(), " and ", g.size());
   const double start = processor_seconds();
   if (impl_->on_engine) j.engine().with(impl_->added);
-  const Ranks& ranks = j.ranks();
-  SumOverRanks sum;
-  if (ranks.size() > 1) sum = [&ranks](Eigen::Ref<Eigen::VectorXd> values) { ranks.sum(values); };
   Eigen::VectorXd b(n_u + n_l), x;
   b << f, system.scale * g;
   const GmresReport done =
       gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.multiply(v, w); },
             [&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.precondition(v, w); }, b,
-            tolerance, max_iterations, x, sum);
+            tolerance, max_iterations, x, sum_over(j.ranks()));
   u = x.head(n_u);
   lambda = system.scale * x.tail(n_l);
   return {done.converged, done.residuals, processor_seconds() - start};

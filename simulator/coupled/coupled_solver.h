@@ -42,6 +42,10 @@ struct CoupledReport {
   int iterations_to(double tolerance) const;
 };
 
+/// mean |diag K| / mean |column of C|: what rows and columns of multipliers are scaled by, Pa per
+/// scaled multiplier.
+double scale_of_multipliers(const SaddlePoint& j);
+
 /// Solves J (u, λ) = (f, g) by right-preconditioned GMRES without restart, from zero; J is not put
 /// together for it. With M ≈ K + E and S̃ ≈ S,
 ///
@@ -52,8 +56,8 @@ struct CoupledReport {
 ///
 /// On several ranks each gives and gets its own rows and multipliers, and all calls are collective.
 ///
-/// Rows and columns of multipliers are scaled by one number, mean |diag K| / mean |column of C|,
-/// so that residuals of both kinds count alike whatever the units.
+/// Rows and columns of multipliers are scaled by scale_of_multipliers, so that residuals of both
+/// kinds count alike whatever the units.
 class CoupledSolver {
  public:
   /// Sets the preconditioner up; `j` is kept by reference. Throws InputError as

@@ -59,7 +59,7 @@ LinearMap leading_block(LeadingKind kind, std::shared_ptr<HypreMatrix> a, const 
   if (kind == LeadingKind::ilu) return hypre_ilu(std::move(a), ilu);
   if (kind == LeadingKind::amg) return hypre_amg(std::move(a), of.motions());
   FAULTSIM_DEMAND(kind == LeadingKind::amg_by_component, to_string(kind), " is not hypre's");
-  return hypre_amg_by_component(std::move(a));
+  return hypre_amg_by_component(std::move(a), of.motions());
 }
 
 LinearMap leading_block(LeadingKind kind, SaddlePoint j, const FsaiOptions& fsai,

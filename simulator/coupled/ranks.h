@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "simulator/linalg/gmres.h"
+
 namespace faultsim {
 
 /// The processes that solve one case together (ranks of MPI). All of them know scene, mesh and the
@@ -39,6 +41,12 @@ class Ranks {
  private:
   std::shared_ptr<const Job> job_;
 };
+
+/// Its sum as linear algebra takes it; none where there is nothing to add. @pre ranks outlive it.
+inline SumOverRanks sum_over(const Ranks& ranks) {
+  if (ranks.size() == 1) return nullptr;
+  return [&ranks](Eigen::Ref<Eigen::VectorXd> values) { ranks.sum(values); };
+}
 
 /// Which rows of a matrix belong to which rank: begin[r] … begin[r + 1] − 1.
 struct RowRanges {

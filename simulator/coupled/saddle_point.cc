@@ -100,7 +100,7 @@ Eigen::VectorXd SaddlePoint::times_leading(const Eigen::VectorXd& u) const {
 }
 
 Eigen::MatrixXd SaddlePoint::motions() const {
-  return bulk_ != nullptr ? bulk_->rigid_motions() : motions_;
+  return bulk_ != nullptr && motions_.size() == 0 ? bulk_->rigid_motions() : motions_;
 }
 
 double SaddlePoint::leading_entry(int row, int column) const {

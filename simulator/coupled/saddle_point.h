@@ -50,8 +50,9 @@ struct SaddlePoint {
   EngineMatrix& engine() const;
   /// (K + E) u. Collective.
   Eigen::VectorXd times_leading(const Eigen::VectorXd& u) const;
-  /// n_u x 6: the near-null space of K. Collective.
+  /// n_u x 6: the near-null space of K, or what was set in its place. Collective.
   Eigen::MatrixXd motions() const;
+  void set_motions(Eigen::MatrixXd motions) { motions_ = std::move(motions); }
   /// An entry of K + E.
   double leading_entry(int row, int column) const;
   Eigen::VectorXd leading_diagonal() const;  ///< Collective.

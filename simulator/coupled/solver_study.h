@@ -18,13 +18,22 @@ struct StudyRow {
   Counts random, physical;
   /// Seconds of the processor: the set-up, and the solve of the random right-hand side to 1e-8.
   double setup_seconds = 0, solve_seconds = 0;
-  double bytes = 0;     ///< on the heap that the preconditioner keeps after its set-up.
-  std::string failure;  ///< why it could not be set up; counts are −1 then.
+  double true_residual = 1;  ///< the larger |b − J x| / |b| of both, computed, in scaled rows.
+  double bytes = 0;          ///< on the heap that the preconditioner keeps after its set-up.
+  std::string failure;       ///< why it could not be set up; counts are −1 then.
 };
 
-/// Right-hand sides: the physical one is load 0 of the bulk with g = 0; the random one has entries
-/// evenly in [−1, 1], seed fixed, in all rows (scaled, as the solver sees them) but prescribed
-/// ones.
+/// A right-hand side of J.
+struct StudyLoad {
+  Eigen::VectorXd f, g;  ///< n_u, N; n_λ, m3.
+};
+/// Entries evenly in [−1, 1], seed fixed, in all rows (scaled, as the solver sees them) but those
+/// of prescribed displacements, which are 0.
+StudyLoad random_load(const TwoSidedBulk& bulk, const SaddlePoint& j);
+/// Load 0 of the bulk, g = 0.
+StudyLoad physical_load(const TwoSidedBulk& bulk, const SaddlePoint& j);
+
+/// Solves for both loads.
 StudyRow study(const TwoSidedBulk& bulk, const SaddlePoint& j, const SolverChoice& choice,
                int max_iterations);
 
