@@ -71,14 +71,14 @@ TEST(LinearSteps, FollowASetThatChangesUntilThatCostsMoreThanANewOne) {
   solve(steps, example, {});
   const Step moved = solve(steps, example, example.some_move());
   EXPECT_EQ(moved.solved.setup_seconds, 0);
-  EXPECT_LT(moved.left, 1e-8);
+  EXPECT_LT(moved.left, 1e-6);
   std::vector<NodeLinearisation> open(example.bulk.fault_nodes().size());
   for (NodeLinearisation& node : open) node.state = FaultState::open;
   int n_set_up = 0;
   for (int k = 0; k < 12; ++k) {
     const Step step = solve(steps, example, k % 2 == 0 ? open : example.some_move());
     EXPECT_TRUE(step.solved.report.converged);
-    EXPECT_LT(step.left, 1e-8) << k;
+    EXPECT_LT(step.left, 1e-6) << k;  // recurrences lose some
     n_set_up += step.solved.setup_seconds > 0;
   }
   EXPECT_GE(n_set_up, 1);
