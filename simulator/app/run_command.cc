@@ -40,7 +40,8 @@ PathChoice path_of(const RunArguments& arguments, const LoadedScene& loaded, con
   if (arguments.path == "condensed") return {SolutionPath::condensed, "asked for"};
   std::vector<Problem> hindrances = unsupported_by_coupled(loaded.scene, loaded.plan);
   if (arguments.path == "automatic") {
-    return choose_path(loaded.plan, available_memory(), hindrances);
+    return choose_path(loaded.plan, available_memory(), hindrances,
+                       takes_columns(loaded.scene, loaded.plan));
   }
   if (!hindrances.empty()) throw InputError(arguments.scene.file, std::move(hindrances));
   return {SolutionPath::coupled, "asked for"};

@@ -148,6 +148,17 @@ std::string stage_text(const CaseResult& result, const StageMetrics& stage) {
 std::string coupled_text(const CaseResult& result) {
   if (!result.coupled) return "";
   const CaseCoupled& c = *result.coupled;
+  if (c.schur == "columns") {
+    std::size_t n_solves = 0;
+    for (const StepResult& step : result.steps)
+      n_solves += step.coupled ? step.coupled->krylov_iterations.size() : 0;
+    return formatted(
+        "coupled path (%s, columns of H): %d displacements, %d jumps; %zu solves in %d iterations\n"
+        "of conjugate gradients, at most %d in one; set-up %.1f s, solves %.1f s of the "
+        "processor\n",
+        c.leading.c_str(), c.n_displacements, c.n_multipliers, n_solves, c.krylov_iterations,
+        c.most_krylov_iterations, c.setup_seconds, c.solve_seconds);
+  }
   return formatted(
       "coupled path (%s, %s): %d displacements, %d multipliers; %d iterations of GMRES in "
       "%d of\nNewton, at most %d in one; set-up %.1f s, solve %.1f s of the processor\n",

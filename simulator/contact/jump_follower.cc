@@ -20,13 +20,32 @@ constexpr int kStaticInterval = 4;     // damped steps between two tries at the 
 
 }  // namespace
 
-/// Δt at which damping outweighs the stiffness of every node, and so any weakening worth the name.
-double JumpFollower::first_duration() const {
+/// The node whose stiffness outlasts damping the longest, by bounds alone.
+int JumpFollower::stiffest_by_bounds() const {
   const ContactProblem& problem = solver_.problem();
-  double duration = std::numeric_limits<double>::infinity();
+  int stiffest = -1;
+  double least = std::numeric_limits<double>::infinity();
   for (int k = 0; k < problem.n_nodes(); ++k) {
     const ContactNode& node = problem.nodes[k];
     if (node.n_dofs < 2) continue;
+    const double bound = problem.compliance.diagonal_bound(node.dof[1]) * node.inverse_area[1];
+    const double duration = node.law->constants().damping / bound;
+    if (duration >= least) continue;
+    least = duration;
+    stiffest = k;
+  }
+  return stiffest;
+}
+
+/// Δt at which damping outweighs the stiffness of every node, and so any weakening worth the name.
+/// Where stiffnesses have to be solved for, one stands for all: Δt is tried and adapted anyway.
+double JumpFollower::first_duration() const {
+  const ContactProblem& problem = solver_.problem();
+  const int only = problem.compliance.is_solved_for() ? stiffest_by_bounds() : -1;
+  double duration = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < problem.n_nodes(); ++k) {
+    const ContactNode& node = problem.nodes[k];
+    if (node.n_dofs < 2 || (only >= 0 && k != only)) continue;
     duration = std::min(duration, node.law->constants().damping / problem.stiffness(node, 1));
   }
   return std::isfinite(duration) ? duration : 1;

@@ -35,6 +35,7 @@ class JumpFollower {
   Report follow(const LoadPath& path, double from, double to, int budget, ContactState& state);
 
  private:
+  int stiffest_by_bounds() const;
   double first_duration() const;
   bool damped_step(const LoadPath& path, double from, ContactState& state);
   bool try_static(const LoadPath& path, ContactState& state);

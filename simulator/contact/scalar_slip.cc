@@ -38,8 +38,10 @@ bool ScalarSlip::add_violators(const SubStep& sub_step, bool& opens) {
 }
 
 /// The same with the slip just solved for, at the nodes near their limit alone and without the
-/// product with H: their rows are read from their own columns, by symmetry.
+/// product with H: their rows are read from their own columns, by symmetry. Not where those would
+/// have to be solved for.
 bool ScalarSlip::add_neighbours(const SubStep& sub_step) {
+  if (problem_.compliance.is_solved_for()) return false;
   bool any = false;
   const std::size_t m = order_.size();
   for (const int k : near_limit_) {

@@ -71,7 +71,7 @@ void SubStepSolver::set_tolerance() {
     normal_stiffness_.resize(problem_.n_nodes());
     for (int k = 0; k < problem_.n_nodes(); ++k) {
       const ContactNode& node = problem_.nodes[k];
-      normal_stiffness_[k] = problem_.stiffness(node, 0);
+      normal_stiffness_[k] = problem_.compliance.diagonal_bound(node.dof[0]) * node.inverse_area[0];
     }
   }
   s.tolerance = s.tolerance.cwiseMax(kRounding * largest_jump * normal_stiffness_);

@@ -80,7 +80,7 @@ class SubStepSolver {
   bool rests_ = false;  ///< nothing moves in the sub-step.
   StabilityReport stable_;
   Eigen::VectorXd level_;             ///< largest |traction| per dof, Pa.
-  Eigen::VectorXd normal_stiffness_;  ///< H_NN/A per node, Pa/m; empty until something slipped.
+  Eigen::VectorXd normal_stiffness_;  ///< ≥ H_NN/A per node, Pa/m; empty until something slipped.
   SubStepTrace trace_;
 };
 

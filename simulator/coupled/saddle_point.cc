@@ -128,6 +128,13 @@ std::shared_ptr<const SparseMatrix> SaddlePoint::symmetric_leading() const {
                                               2);
 }
 
+void SaddlePoint::lend_leading(const SparseMatrix& matrix, Eigen::MatrixXd motions) {
+  bulk_ = nullptr;
+  engine_.reset();
+  leading_ = {std::shared_ptr<void>(), &matrix};
+  motions_ = std::move(motions);
+}
+
 void SaddlePoint::set_leading(SparseMatrix matrix, Eigen::MatrixXd motions) {
   bulk_ = nullptr;
   engine_.reset();

@@ -63,6 +63,8 @@ struct SaddlePoint {
   std::shared_ptr<const SparseMatrix> symmetric_leading() const;
   /// A matrix of its own in place of K + E of a bulk, and its near-null space.
   void set_leading(SparseMatrix matrix, Eigen::MatrixXd motions = {});
+  /// The same of a matrix that outlives this.
+  void lend_leading(const SparseMatrix& matrix, Eigen::MatrixXd motions);
   /// @pre the bulk outlives this.
   void set_bulk(const TwoSidedBulk& bulk) { bulk_ = &bulk; }
 

@@ -1,5 +1,6 @@
 #include "simulator/coupled_case/coupled_case.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -35,6 +36,12 @@ FaultOperator uncondensed(const Scene& scene, const Plan& plan, const BulkProble
 
 std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan) {
   return unsupported(scene, plan, std::array{Feature::coupled_path});
+}
+
+bool takes_columns(const Scene& scene, const Plan& plan) {
+  return std::ranges::any_of(features_of(scene, plan), [](Feature feature) {
+    return feature == Feature::weakening || feature == Feature::cohesion_loss;
+  });
 }
 
 std::string parts_warning(const CaseResult& result) {
@@ -227,15 +234,27 @@ CoupledCase::CoupledCase(const SceneBulk& scene, const SolverChoice& solver,
   std::vector<Problem> problems = unsupported_by_coupled(scene.scene(), scene.plan());
   if (!problems.empty()) throw InputError("scene", std::move(problems));
   context.progress(0.0, "meshing and assembling");
+  if (takes_columns(scene.scene(), scene.plan())) {
+    if (ranks.size() > 1)
+      throw InputError("coupled path",
+                       "faults that weaken, or lose cohesion by slip, take columns of H, which are "
+                       "made in one process",
+                       "start it without mpirun");
+    solved_ = std::make_unique<SolvedCase>(scene, solver, context);
+    return;
+  }
   impl_ = std::make_unique<Impl>(scene, solver, ranks);
 }
 
 CoupledCase::~CoupledCase() = default;
 
-const FaultOperator& CoupledCase::faults() const { return impl_->faults; }
-const Mesh& CoupledCase::mesh() const { return impl_->problem.mesh; }
+const FaultOperator& CoupledCase::faults() const {
+  return solved_ ? solved_->faults() : impl_->faults;
+}
+const Mesh& CoupledCase::mesh() const { return solved_ ? solved_->mesh() : impl_->problem.mesh; }
 
 CaseResult CoupledCase::run(const RunContext& context, const CaseProbe& probe) {
+  if (solved_) return solved_->run(context, probe);
   Impl& self = *impl_;
   const auto steps = [&self, &context](const StepSetting& setting) {
     return std::make_unique<CoupledSteps>(self.bulk, self.problem, self.faults, self.mirrored,

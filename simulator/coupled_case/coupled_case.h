@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "simulator/common/errors.h"
-#include "simulator/coupled/coupled_solver.h"
-#include "simulator/loading/run_case.h"
+#include "simulator/coupled_case/solved_case.h"
 
 namespace faultsim {
 
@@ -17,11 +16,16 @@ std::vector<Problem> unsupported_by_coupled(const Scene& scene, const Plan& plan
 /// That load steps of a result were taken in parts, and what that may change; empty: none was.
 std::string parts_warning(const CaseResult& result);
 
+/// Whether a case goes by columns of H that are solved for (solved_case.h) instead of multipliers:
+/// where friction can make equilibrium jump.
+bool takes_columns(const Scene& scene, const Plan& plan);
+
 /// A case on the coupled path (docs/model.md, section 11): mesh, bulk and faults of the scene
 /// without a condensed operator, walked through its load steps by loading's run_case, measured and
 /// summed up by the same code as a case on an operator. A step whose Newton iteration does not end
 /// is taken in parts, to its 2^max_step_cuts-th at the smallest; its tolerance is
-/// /numerics/traction_tolerance, of the largest traction of load and faults.
+/// /numerics/traction_tolerance, of the largest traction of load and faults. A scene that
+/// takes_columns() is a SolvedCase.
 class CoupledCase {
  public:
   /// @pre scene and plan outlive this. Throws InputError with all of unsupported_by_coupled(), and
@@ -44,7 +48,8 @@ class CoupledCase {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Impl> impl_;  ///< by multipliers; null: by columns.
+  std::unique_ptr<SolvedCase> solved_;
 };
 
 }  // namespace faultsim

@@ -9,13 +9,18 @@ std::string gigabytes(double bytes) { return formatted("%.2g GB", bytes / 1e9); 
 
 }  // namespace
 
-double coupled_bytes(const Plan& plan) {
+double coupled_bytes(const Plan& plan, bool by_columns) {
+  const auto n_unknowns = static_cast<double>(plan.n_unknowns);
   constexpr double kPerUnknown = 9e3;  // where faults slip; 6 where all stick
-  return kPerUnknown * static_cast<double>(plan.n_unknowns);
+  if (!by_columns) return kPerUnknown * n_unknowns;
+  constexpr double kStuck = 5e3;   // no multipliers, one matrix for the whole history
+  constexpr double kMoving = 0.5;  // of the jumps
+  const auto n_jump = static_cast<double>(plan.n_jump);
+  return kStuck * n_unknowns + 8 * kMoving * n_jump * n_jump;
 }
 
 PathChoice choose_path(const Plan& plan, std::optional<double> available,
-                       const std::vector<Problem>& hindrances) {
+                       const std::vector<Problem>& hindrances, bool by_columns) {
   const std::string needs =
       concat("the condensed operator needs about ", gigabytes(plan.memory_bytes));
   if (!available) {
@@ -29,12 +34,13 @@ PathChoice choose_path(const Plan& plan, std::optional<double> available,
     return {SolutionPath::condensed,
             needs + there + "; the coupled path cannot take the scene: " + hindrances.front().what};
   }
-  if (coupled_bytes(plan) > *available) {
+  const double coupled = coupled_bytes(plan, by_columns);
+  if (coupled > *available)
     return {SolutionPath::condensed,
-            concat(needs, there, ", the coupled path ", gigabytes(coupled_bytes(plan)))};
-  }
+            concat(needs, there, ", the coupled path ", gigabytes(coupled))};
+  const char* how = by_columns ? ", which solves for the columns of what moves," : "";
   return {SolutionPath::coupled,
-          concat(needs, there, "; the coupled path needs about ", gigabytes(coupled_bytes(plan)))};
+          concat(needs, there, "; the coupled path", how, " needs about ", gigabytes(coupled))};
 }
 
 }  // namespace faultsim

@@ -20,14 +20,16 @@ struct PathChoice {
   std::string reason;  ///< a sentence with the numbers that decide, for the screen and plan.json.
 };
 
-/// Predicted peak of the coupled path with AMG and RAC, bytes; see results/solver-study.
-double coupled_bytes(const Plan& plan);
+/// Predicted peak of the coupled path with AMG, bytes: by multipliers with RAC (see
+/// results/solver-study), or by columns of H, of which a share of the jumps is taken to move.
+double coupled_bytes(const Plan& plan, bool by_columns);
 
 /// The path for scenes that leave the choice: condensed wherever its operator fits, because every
 /// load step is then nearly free; coupled where only that fits.
 /// @param available    bytes; none = not known, taken as enough.
 /// @param hindrances   unsupported_by_coupled() of the scene.
+/// @param by_columns   takes_columns() of it.
 PathChoice choose_path(const Plan& plan, std::optional<double> available,
-                       const std::vector<Problem>& hindrances);
+                       const std::vector<Problem>& hindrances, bool by_columns = false);
 
 }  // namespace faultsim

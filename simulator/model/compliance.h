@@ -24,9 +24,15 @@ class Compliance {
 
   virtual ~Compliance() = default;
   virtual int size() const = 0;  ///< n.
-  /// H e_j, by symmetry also row j. Valid as long as this object.
+  /// H e_j, by symmetry also row j. Valid as long as this object; where columns are solved for, as
+  /// long as that says. Ask for none that does not matter: it may have to be made.
   virtual Column column(int j) const = 0;
   virtual double diagonal(int j) const = 0;
+  /// At least H_jj, at next to no cost: for what needs its order of magnitude alone.
+  virtual double diagonal_bound(int j) const { return diagonal(j); }
+  /// Whether a column or a diagonal entry costs the solution of a large system when it is first
+  /// asked for. Then only what moves is worth it.
+  virtual bool is_solved_for() const { return false; }
   /// traction −= A⁻¹ Σ_j H e_j g_j over the jumps listed, summed in their order; the others count
   /// as 0. In the rows given only, with the bits that they have when all are.
   /// @param team  shares the rows where they are many; the bits are the same with any, or none.

@@ -75,7 +75,7 @@ PreparedInfluence prepare_influence(const SceneBulk& of, const std::vector<int>&
   made.predicted = plan_influence(scene, plan, static_cast<long>(cells.size()));
   Plan whole = plan;
   whole.memory_bytes = std::max(plan.memory_bytes, kProgramBytes + made.predicted.peak_bytes);
-  require_memory(whole, available_memory());
+  require_memory(whole, available_memory(), false);
   PreparedOperator prepared = prepare_operator(of, cache, true, context);
   made.op = prepared.op;
   if (keep_bulk) made.bulk = prepared.bulk;

@@ -5,7 +5,7 @@
 #include "simulator/common/errors.h"
 
 namespace faultsim {
-void require_memory(const Plan& plan, std::optional<double> available) {
+void require_memory(const Plan& plan, std::optional<double> available, bool may_go_without) {
   if (!available || plan.memory_bytes <= *available) return;
   const bool creeps = plan.creep.active;
   const std::string what =
@@ -23,7 +23,8 @@ void require_memory(const Plan& plan, std::optional<double> available) {
                                  "(for a field the tier \"screening\")",
              creeps ? ", or fewer step lengths (/numerics/creep_refinements, or fixed steps by "
                       "/numerics/creep_time_step)"
-                    : ""));
+             : may_go_without ? ", or go without an operator (faultsim run --path automatic)"
+                              : ""));
 }
 
 }  // namespace faultsim

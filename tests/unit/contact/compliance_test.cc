@@ -22,7 +22,10 @@ class ColumnsOnDemand final : public Compliance {
     if (columns_[j].size() == 0) columns_[j] = h_.col(j);
     return {columns_[j].data(), h_.rows()};
   }
-  double diagonal(int j) const override { return h_(j, j); }
+  double diagonal(int j) const override { return column(j)[j]; }
+  double diagonal_bound(int j) const override { return 3 * h_(j, j); }
+  bool is_solved_for() const override { return true; }
+  bool is_made(int j) const { return columns_[j].size() > 0; }
   int n_made() const {
     return static_cast<int>(std::count_if(columns_.begin(), columns_.end(),
                                           [](const auto& column) { return column.size() > 0; }));
@@ -95,6 +98,38 @@ TEST(ContactSolver, AsksForTheColumnsOfMovingNodesOnly) {
     EXPECT_GT(columns->n_made(), 0);
     EXPECT_LT(columns->n_made(), columns->size());
   }
+}
+
+/// Three sliders of which one jumps: of the others only the stiffest is asked, for Δt.
+TEST(ContactSolver, FollowsAJumpByTheColumnsOfWhatMoves) {
+  FaultOperator stored = make_operator(3, 1, Eigen::VectorXd::Constant(3, 2.5));
+  Eigen::VectorXd stiffness(6);
+  stiffness << 1, 1, 1, 1, 2, 2;
+  set_h(stored, 2.5 * 1e7 * Eigen::MatrixXd(stiffness.asDiagonal()));
+  FaultOperator solved = stored;
+  const auto columns = std::make_shared<ColumnsOnDemand>(stored.h());
+  solved.compliance = columns;
+  ContactLaws laws = same_law(stored, linear_weakening(0.2));
+  for (CoulombLaw& law : laws) law.damping = 2e6;
+  const auto pulled = [](double u) {
+    Eigen::VectorXd locked = Eigen::VectorXd::Zero(6);
+    locked << -2e7, 1e7 * u, -2e7, 0, -2e7, 0;
+    return locked;
+  };
+  ContactState at = initial_state(stored), same = at;
+  ContactSolver first(stored, laws, {}), second(solved, laws, {});
+  Eigen::VectorXd last = Eigen::VectorXd::Zero(6);
+  for (const double u : {1.1, 1.3}) {
+    const ContactReport a = first.solve_step(last, pulled(u), at);
+    const ContactReport b = second.solve_step(last, pulled(u), same);
+    last = pulled(u);
+    EXPECT_EQ(b.outcome, a.outcome) << b.reason;
+    ASSERT_EQ(b.jumps.size(), u > 1.2 ? 1u : 0u);
+  }
+  EXPECT_NEAR(at.jump[1], 0.5, 1e-7);
+  EXPECT_EQ(same.jump, at.jump);
+  EXPECT_TRUE(columns->is_made(1) && columns->is_made(5));
+  for (const int j : {2, 3, 4}) EXPECT_FALSE(columns->is_made(j)) << j;
 }
 
 }  // namespace

@@ -28,6 +28,19 @@ TEST(PathChoice, TakesBothSidesWhereOnlyTheyFit) {
   EXPECT_THAT(one.reason, HasSubstr("the coupled path needs about"));
 }
 
+TEST(PathChoice, TakesColumnsWhereOnlyTheyFit) {
+  Plan plan = million();
+  plan.n_jump = 20'000;
+  EXPECT_LT(coupled_bytes(plan, true), coupled_bytes(plan, false)) << "no multipliers";
+  const PathChoice one = choose_path(plan, 8e9, {}, true);
+  EXPECT_EQ(one.path, SolutionPath::coupled);
+  EXPECT_THAT(one.reason,
+              HasSubstr("the condensed operator needs about 60 GB of 8 GB; the coupled path, which "
+                        "solves for the columns of what moves, needs about 6.6 GB"));
+  plan.n_jump = 60'000;
+  EXPECT_EQ(choose_path(plan, 8e9, {}, true).path, SolutionPath::condensed) << "7 GB of columns";
+}
+
 TEST(PathChoice, SaysWhyNeitherWillDo) {
   const PathChoice small = choose_path(million(), 1e9, {});
   EXPECT_EQ(small.path, SolutionPath::condensed) << "which refuses with its cure";
