@@ -20,7 +20,7 @@ target_compile_options(faultsim_options INTERFACE
 # (commands and pictures, which nobody waits for: -Og compiles in half of -O3's time), test, text_test, whole_test
 # (optimised as the library).
 # All but tests are position independent, for the Python module and shared libraries of others; calls within a unit
-# stay direct, so that it costs nothing (decision 28).
+# stay direct (decision 28).
 function(faultsim_precompile target kind)
   if(NOT kind MATCHES "test$|test_")
     target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
