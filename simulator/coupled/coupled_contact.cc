@@ -291,9 +291,15 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
       {load.background.lpNorm<Eigen::Infinity>(), state.traction.lpNorm<Eigen::Infinity>(), 1.0});
   iterate(force, level, before, at, report);
   if (!report.converged) return report;
+  const double tolerance =
+      options_.traction_tolerance * std::max(level, at.traction.lpNorm<Eigen::Infinity>());
   for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
     const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
     if (at.state[k] != FaultState::open) at.increment[node.first] = -before.jump[node.first];
+    // A node that slips by less than is told apart was set to slip on the way only.
+    if (at.state[k] == FaultState::slip &&
+        node.stiffness * shear_of(node.shear, at.increment).norm() <= tolerance)
+      at.state[k] = FaultState::stick;
     if (at.state[k] == FaultState::stick) set_shear(node.shear, {0, 0}, at.increment);
     const FrictionState after =
         node.law.after(state_of(node, before, k), shear_of(node.shear, at.increment),
