@@ -30,6 +30,9 @@ void start_hypre() {
     MPI_Initialized(&has_mpi);
     // Open MPI: alone, without mpirun, start no daemon that could spawn others. Half a second less.
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    // Containers forbid process_vm_readv, by which ranks on one host would read each other's
+    // memory.
+    setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     if (has_mpi == 0 && MPI_Init(nullptr, nullptr) != MPI_SUCCESS) {
       throw ResourceError("MPI does not start, which the coupled path needs");
     }
