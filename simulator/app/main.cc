@@ -369,9 +369,8 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "solver-study", "preconditioners of the coupled path on a published cracked box");
   command
-      ->add_option(
-          "--case", a.study.cases,
-          "box (default), stand-ins for field cases 15-cuts,field-a,field-b,field-c or all")
+      ->add_option("--case", a.study.cases,
+                   "box (default), or stand-ins: 15-cuts,field-a,field-b,field-c; or all")
       ->delimiter(',');
   command
       ->add_option("--stage", a.study.stages,
