@@ -55,6 +55,13 @@ ExitCode together(const std::function<void(const Ranks&)>& prepare,
     return work();
   }
   const Ranks ranks = Ranks::of_the_job();
+  if (ranks.size() == 1) {
+    if (started_as() > 0) Silence();
+    throw InputError(
+        "faultsim run",
+        concat("it was started as ", started_with(), " processes that do not know of each other"),
+        "start them by mpirun; within a job of Slurm it takes the job's hosts");
+  }
   std::optional<Silence> silence;
   if (ranks.rank() > 0) silence.emplace();
   ExitCode code = ExitCode::done;
@@ -66,6 +73,8 @@ ExitCode together(const std::function<void(const Ranks&)>& prepare,
     code = code_of(error);
   }
   const auto worst = static_cast<ExitCode>(ranks.largest(static_cast<int>(code)));
+  const int speaker = ranks.size() - ranks.largest(wrong ? ranks.size() - ranks.rank() : 0);
+  if (silence && ranks.rank() == speaker) silence->end();  // only some hosts see a wrong file, say
   if (wrong) std::rethrow_exception(wrong);
   if (worst != ExitCode::done) return worst;
   try {

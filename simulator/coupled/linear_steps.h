@@ -41,13 +41,13 @@ class LinearSteps {
   std::unique_ptr<SaddlePoint> j_;
   std::unique_ptr<CoupledSolver> solver_;  ///< none: to be set up.
   bool is_new_ = false;
-  double per_decade_ = 0;  ///< iterations, when it was new.
+  double per_decade_ = 0;  ///< iterations, when it was new; 0: not known.
   double lost_ = 0;        ///< iterations since then, against as many per decade.
 };
 
 /// How far a linear step is solved: as far as Newton's method gains by it (Eisenstat and Walker,
-/// SIAM J. Sci. Comput. 17, 1996, choice 2 with γ = 0.9, α = 2), and no further than the load step
-/// asks for.
+/// SIAM J. Sci. Comput. 17, 1996, choice 2: 0.9 (|r|/|r of the step before|)²), and no further than
+/// the load step asks for. Their safeguard begins at 0.1, above any `loosest` taken here.
 class ForcingTerm {
  public:
   /// @param loosest  the first, and the largest. @param asked  of the load step's first residual.
@@ -57,7 +57,7 @@ class ForcingTerm {
 
  private:
   double loosest_, asked_;
-  double first_ = 0, norm_ = 0, term_ = 0;  ///< of residuals; of the last linear step.
+  double first_ = 0, before_ = 0;  ///< residuals.
 };
 
 }  // namespace faultsim

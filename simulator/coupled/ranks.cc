@@ -95,9 +95,12 @@ void Ranks::abort(const char* word, int code) const {
 }
 
 int started_with() {
-  return std::max(1, number_of({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS"}));
+  return std::max(1, number_of({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MPI_LOCALNRANKS",
+                                "SLURM_STEP_NUM_TASKS"}));
 }
 
-int started_as() { return number_of({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MPI_LOCALRANKID"}); }
+int started_as() {
+  return number_of({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "MPI_LOCALRANKID", "SLURM_PROCID"});
+}
 
 }  // namespace faultsim

@@ -26,12 +26,6 @@ TEST(ForcingTerm, AsksForNoMoreThanTheLoadStep) {
   EXPECT_EQ(forcing.next(5e-9), 1e-2);
 }
 
-TEST(ForcingTerm, FallsNoFasterThanItOughtTo) {
-  ForcingTerm forcing(0.9, 1e-12);
-  forcing.next(1);
-  EXPECT_DOUBLE_EQ(forcing.next(1e-3), 0.9 * 0.9 * 0.9);
-}
-
 constexpr SolverChoice kKept{LeadingKind::amg, SchurKind::rac};
 
 /// A Newton step with these states at the nodes, and what is left of its residual.
