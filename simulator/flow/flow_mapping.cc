@@ -106,7 +106,8 @@ class NearestOfRegion {
 /// Cells that take from none: the nearest flow cell, of their own compartment where those are
 /// known.
 void take_nearest(const FlowField& field, const std::vector<MappedCell>& cells,
-                  const FlowCellSearch& search, FlowMapping& mapping) {
+                  FlowMapping& mapping) {
+  const FlowCellSearch search(field.cells);
   std::map<std::size_t, NearestOfRegion> of_region;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (!mapping.weights[c].empty()) continue;
@@ -142,28 +143,41 @@ CellCorners at_section(CellCorners corners, double y) {
   return corners;
 }
 
-FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
-                     const std::vector<std::string>& region_names, const MappingRules& rules) {
-  FlowMapping mapping;
-  mapping.coverage.resize(region_names.size());
+FlowOverlaps flow_overlaps(const FlowField& field, const std::vector<MappedCell>& cells) {
+  FlowOverlaps all;
   const FlowCellSearch search(field.cells);
   for (const MappedCell& cell : cells) {
-    std::vector<FlowMapping::Weight>& overlaps = mapping.weights.emplace_back();
-    const double volume = cell_volume(cell.corners);
-    if (overlaps_of(cell, field, search, overlaps) > (1 + kTwice) * volume) {
+    const double sum = overlaps_of(cell, field, search, all.emplace_back());
+    if (sum > (1 + kTwice) * cell_volume(cell.corners)) {
       throw InputError(
           "flow field", "flow cells lie over each other at " + where(cell),
-          "give every place one cell, without refined parents; a table of points of a grid "
-          "whose pillars lean needs its columns i, j and k");
+          "give every place one cell: layers of a grid (ZCORN) below each other, no refined "
+          "parents; a table of points of a grid whose pillars lean needs its columns i, j and k");
     }
+  }
+  return all;
+}
+
+FlowMapping map_overlaps(const FlowField& field, const std::vector<MappedCell>& cells,
+                         FlowOverlaps overlaps, const std::vector<std::string>& region_names,
+                         const MappingRules& rules) {
+  FlowMapping mapping;
+  mapping.weights = std::move(overlaps);
+  mapping.coverage.resize(region_names.size());
+  for (const MappedCell& cell : cells) {
     mapping.region.push_back(cell.region);
-    mapping.part.push_back(cell.fraction * volume);
+    mapping.part.push_back(cell.fraction * cell_volume(cell.corners));
   }
   if (rules.integral == IntegralRule::flow_grid)
     divide_flow_cells(field, cells, rules.y_range, mapping);
   for (std::size_t c = 0; c < cells.size(); ++c) take_means(cells[c], c, mapping);
-  if (rules.outside == OutsideRule::nearest) take_nearest(field, cells, search, mapping);
+  if (rules.outside == OutsideRule::nearest) take_nearest(field, cells, mapping);
   return mapping;
+}
+
+FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
+                     const std::vector<std::string>& region_names, const MappingRules& rules) {
+  return map_overlaps(field, cells, flow_overlaps(field, cells), region_names, rules);
 }
 
 Eigen::MatrixXd mapped_change(const FlowMapping& mapping, const FlowField& field, int reference,

@@ -54,12 +54,23 @@ struct FlowMapping {
   std::vector<std::vector<Weight>> flow_cells = {};
 };
 
+/// V(c ∩ f) in place of the weights, m3, per cell of ours, f ascending.
+using FlowOverlaps = std::vector<std::vector<FlowMapping::Weight>>;
+
+/// @throws InputError where flow cells lie over each other (a cell is covered more than once, by
+/// 1 % of its volume), with the place.
+FlowOverlaps flow_overlaps(const FlowField& field, const std::vector<MappedCell>& cells);
+
 /// The weights V(c ∩ f) / Σ_f V(c ∩ f), f ascending, so that ∫p dV over what both grids cover is
 /// conserved to rounding. A cell half outside of its compartment takes the mean over all of it.
 /// By IntegralRule::flow_grid a cell takes from flow cells that count with its compartment only, so
 /// that none of the other side's reaches across a fault which is straighter here than there.
-/// @throws InputError where flow cells lie over each other (a cell is covered more than once, by
-/// 1 % of its volume), with the place.
+/// @param overlaps  flow_overlaps() of the same.
+FlowMapping map_overlaps(const FlowField& field, const std::vector<MappedCell>& cells,
+                         FlowOverlaps overlaps, const std::vector<std::string>& region_names,
+                         const MappingRules& rules);
+
+/// Both of these. @throws as flow_overlaps() does.
 FlowMapping map_flow(const FlowField& field, const std::vector<MappedCell>& cells,
                      const std::vector<std::string>& region_names, const MappingRules& rules);
 

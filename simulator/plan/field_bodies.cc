@@ -35,23 +35,31 @@ std::vector<MappedCell> bodies_of_blocks(const Scene& scene) {
   return bodies;
 }
 
+MappedCell mapped_cell(const Mesh& mesh, int cell, int region) {
+  return {.corners = corners_of_cell(mesh, cell),
+          .region = region,
+          .fraction = mesh.region_fraction[cell]};
+}
+
+std::vector<MappedCell> of_compartments(const Mesh& mesh) {
+  std::vector<MappedCell> cells;
+  for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
+    if (mesh.region[c] >= 0) cells.push_back(mapped_cell(mesh, c, mesh.region[c]));
+  }
+  return cells;
+}
+
+/// Cells of compartments first.
 std::vector<MappedCell> bodies_of_box(const Scene& scene, const Plan& plan) {
   const Mesh mesh = scene_mesh(scene, plan);
-  std::vector<MappedCell> bodies;
-  const auto add = [&](int cell, int region) {
-    bodies.push_back({.corners = corners_of_cell(mesh, cell),
-                      .region = region,
-                      .fraction = mesh.region_fraction[cell]});
-  };
-  for (int c = 0; c < static_cast<int>(mesh.cells.size()); ++c) {
-    if (mesh.region[c] >= 0) add(c, mesh.region[c]);
-  }
+  std::vector<MappedCell> bodies = of_compartments(mesh);
   for (std::size_t f = 0; f < mesh.faults.size(); ++f) {
     std::set<int> beside;
     for (const FaultFace& face : mesh.faults[f].faces)
       beside.insert({face.minus_cell, face.plus_cell});
     for (const int c : beside) {
-      if (mesh.region[c] >= 0) add(c, static_cast<int>(scene.pressure.size() + f));
+      if (mesh.region[c] >= 0)
+        bodies.push_back(mapped_cell(mesh, c, static_cast<int>(scene.pressure.size() + f)));
     }
   }
   return bodies;
@@ -66,6 +74,14 @@ CellCorners corners_of_cell(const Mesh& mesh, int cell) {
     return {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
   // Five of the six tetrahedra around the diagonal from the first to the seventh are flat.
   return {at(0), at(1), at(2), at(2), at(0), at(1), at(3), at(3)};
+}
+
+std::vector<MappedCell> cells_of_compartments(const Mesh& mesh, double y) {
+  std::vector<MappedCell> cells = of_compartments(mesh);
+  for (MappedCell& cell : cells) {
+    if (mesh.plane_strain) cell.corners = at_section(cell.corners, y);
+  }
+  return cells;
 }
 
 std::vector<MappedCell> field_bodies(const Scene& scene, const Plan& plan, double y) {

@@ -11,9 +11,13 @@ namespace faultsim {
 /// n_compartments + a fault for the parts of the reservoir beside it.
 ///
 /// Of a field: the hexahedron of each block's reservoir between its faults, and the slices of those
-/// within kBesideFault of a fault. Of a box: the cells of its mesh in regions, and those that touch
-/// a fault. In plane strain their section at y (at_section).
+/// within kBesideFault of a fault. Of a box: the cells of its mesh in regions, then those that
+/// touch a fault. In plane strain their section at y (at_section).
 std::vector<MappedCell> field_bodies(const Scene& scene, const Plan& plan, double y);
+
+/// The cells of a mesh that lie in compartments, as a run maps fields onto them: in order, in plane
+/// strain their section at y.
+std::vector<MappedCell> cells_of_compartments(const Mesh& mesh, double y);
 
 inline constexpr double kBesideFault = 100;  ///< m, in x.
 

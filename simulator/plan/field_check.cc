@@ -63,6 +63,7 @@ class FieldChecker {
   FieldChecker(const Scene& scene, const Plan& plan, const FlowLoad& load, std::string key,
                FieldCheck& found)
       : scene_(scene),
+        plan_(plan),
         load_(load),
         at_("/" + std::move(key)),
         found_(found),
@@ -74,13 +75,17 @@ class FieldChecker {
   }
 
   void check(bool is_pressure) {
+    FlowOverlaps overlaps;
     try {
-      mapping_ = map_flow(*there_, bodies_, names_, {.outside = OutsideRule::unchanged});
+      overlaps = flow_overlaps(*there_, bodies_);
+      mapping_ =
+          map_overlaps(*there_, bodies_, overlaps, names_, {.outside = OutsideRule::unchanged});
+      if (!coverage()) return;
+      if (load_.integral == IntegralRule::flow_grid) integrals(std::move(overlaps));
     } catch (const InputError& error) {
       for (const Problem& one : error.problems()) problem(one.what, one.cure);
       return;
     }
-    if (!coverage()) return;
     faults();
     if (!is_pressure) return;
     for (int region = 0; region < n_regions(); ++region) pressures(region);
@@ -138,6 +143,24 @@ class FieldChecker {
               "compartment; if so little is meant, say \"outside\": \"nearest\" or \"unchanged\"");
     }
     return is_enough;
+  }
+
+  /// What a run would refuse: integrals that cannot be kept, in the cells of its mesh. Those of a
+  /// field are none of its bodies; elsewhere the first bodies are.
+  void integrals(FlowOverlaps overlaps) const {
+    std::vector<MappedCell> cells = bodies_;
+    if (scene_.geometry_kind == GeometryKind::field) {
+      cells = cells_of_compartments(scene_mesh(scene_, plan_), load_.y);
+      overlaps = flow_overlaps(*there_, cells);
+    }
+    std::erase_if(cells, [&](const MappedCell& cell) { return cell.region >= n_regions(); });
+    overlaps.resize(cells.size());
+    MappingRules rules{.outside = load_.outside, .integral = load_.integral, .y_range = y_range_};
+    if (plan_.half_domain) rules.y_range[0] = 0;
+    const std::vector<std::string> regions = region_names(scene_);
+    const FlowMapping mapping = map_overlaps(*there_, cells, std::move(overlaps), regions, rules);
+    Eigen::MatrixXd change = mapped_change(mapping, *there_, load_.reference, load_.reports);
+    keep_integrals(mapping, *there_, load_.reference, load_.reports, regions, change);
   }
 
   /// How much of the flow grid counts with compartments that it does not lie in.
@@ -258,6 +281,7 @@ class FieldChecker {
   }
 
   const Scene& scene_;
+  const Plan& plan_;
   const FlowLoad& load_;
   std::string at_;
   FieldCheck& found_;

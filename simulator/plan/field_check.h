@@ -21,13 +21,14 @@ inline constexpr double kLeastCovered = 0.5;
 /// Looks at the fields where they meet the compartments as a whole: of a field's blocks the exact
 /// hexahedra between the faults (in plane strain their section), of a box the cells of its mesh.
 /// Problems: a grid that meets no compartment, or less than kLeastCovered of one, with the cure;
-/// flow cells that lie over each other. Remarks: compartments that are not covered whole; faults
-/// with less than kLeastCovered of the reservoir within 100 m of them covered; of pressures, the
-/// initial state's plus the change since the reference, where and when they rise most above the
-/// initial one, exceed the least principal stress most and fall below zero most, looked at flow
-/// cell by flow cell; a reference report whose mean is 5 bar from the initial pressure. Costs the
-/// overlaps of the flow cells with a few hexahedra. Nothing where there is no field. @pre scene and
-/// plan have no problems.
+/// flow cells that lie over each other; of IntegralRule::flow_grid integrals that cannot be kept,
+/// in the cells of the mesh as a run has them (keep_integrals). Remarks: compartments that are not
+/// covered whole; faults with less than kLeastCovered of the reservoir within 100 m of them
+/// covered; of pressures, the initial state's plus the change since the reference, where and when
+/// they rise most above the initial one, exceed the least principal stress most and fall below zero
+/// most, looked at flow cell by flow cell; a reference report whose mean is 5 bar from the initial
+/// pressure. Costs the overlaps of the flow cells with a few hexahedra, or with the cells of the
+/// mesh. Nothing where there is no field. @pre scene and plan have no problems.
 FieldCheck check_fields(const Scene& scene, const Plan& plan);
 
 }  // namespace faultsim

@@ -128,6 +128,34 @@ TEST_F(FieldCheckTest, NamesTheFaultThatIsNotReached) {
   EXPECT_THAT(said, Not(Contains(HasSubstr("hardly reaches fault " + scene_.faults[0].name))));
 }
 
+/// As a run would, on the mesh: the flow grid goes on far beyond the model.
+TEST_F(FieldCheckTest, RefusesIntegralsThatCannotBeKept) {
+  fill(low_.x(), high_.x());
+  std::array<std::array<double, 2>, 2> range = {{{1e9, -1e9}, {1e9, -1e9}}};
+  for (const MappedCell& body : field_bodies(scene_, plan_, 0)) {
+    if (body.region > 1) continue;
+    auto& [low, high] = range[static_cast<std::size_t>(body.region)];
+    for (const Eigen::Vector3d& corner : body.corners) {
+      low = std::min(low, corner.z());
+      high = std::max(high, corner.z());
+    }
+  }
+  std::erase_if(field_.cells, [&](const FlowCell& cell) {
+    const auto& [low, high] = range[cell.low.x() < 0 ? 0 : 1];
+    return cell.high.z() < low + 1 || cell.low.z() > high - 1;
+  });
+  fill(0, 0);  // values of those that are left
+  scene_.pressure_field.integral = IntegralRule::flow_grid;
+  EXPECT_THAT(check().problems, IsEmpty());
+  fill(high_.x() + 50, high_.x() + 4 * (high_.x() - low_.x()));
+  const std::vector<Problem> problems = check().problems;
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/pressure_field");
+  EXPECT_THAT(problems[0].what, HasSubstr("the integrals of its change over east and over"));
+  scene_.pressure_field.integral = IntegralRule::mapped;
+  EXPECT_THAT(check().problems, IsEmpty());
+}
+
 TEST_F(FieldCheckTest, WarnsOfPressuresThatCannotBe) {
   fill(low_.x() - 50, high_.x() + 50);
   const double z = 0.5 * (low_.z() + high_.z()) + 1;
