@@ -84,6 +84,7 @@ struct WorkerArguments {
 };
 
 struct SolverStudyArguments {
+  SceneArguments scene;  ///< studied instead of the cases where it has a file.
   std::vector<std::string> cases = {"box"}, stages = {"stick"};  ///< StudyCase, FaultStage, "all".
   std::vector<std::string> cell_sizes = {"1/2", "1/4"};          ///< h of the box, "1/8".
   std::vector<std::string> leading = {"exact"}, schur = {"fsai+dir", "bds", "lsc"};  ///< or "all".

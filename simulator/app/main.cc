@@ -32,14 +32,19 @@ constexpr const char* kFooter =
     "Exit codes: 0 done, 2 input, 3 no convergence, 4 disk or memory, 5 a comparison failed,\n"
     "            70 bug, 75 interrupted.";
 
-CLI::Option* add_scene(CLI::App* command, SceneArguments& arguments) {
-  CLI::Option* scene =
-      command->add_option("scene", arguments.file, "scene file (JSON)")->required();
+/// What changes a scene: --set, --tier.
+void add_changes(CLI::App* command, SceneArguments& arguments) {
   command->add_option("--set", arguments.set, "change a value: /json/pointer=value or alias=value")
       ->type_name("POINTER=VALUE")
       ->allow_extra_args(false);
   command->add_option("--tier", arguments.tier,
                       "screening, demonstration, standard, reference or custom");
+}
+
+CLI::Option* add_scene(CLI::App* command, SceneArguments& arguments) {
+  CLI::Option* scene =
+      command->add_option("scene", arguments.file, "scene file (JSON)")->required();
+  add_changes(command, arguments);
   command->add_flag("--json", arguments.json, "machine-readable output on stdout");
   return scene;
 }
@@ -368,10 +373,16 @@ void add_worker(CLI::App& app, Arguments& a, ExitCode& code) {
 void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
   CLI::App* command = app.add_subcommand(
       "solver-study", "preconditioners of the coupled path on a published cracked box");
+  CLI::Option* scene = command->add_option(
+      "--scene", a.study.scene.file, "a scene's own body instead: its mesh, materials and holds");
+  add_changes(command, a.study.scene);
+  command->get_option("--set")->needs(scene);
+  command->get_option("--tier")->needs(scene);
   command
       ->add_option("--case", a.study.cases,
                    "box (default), or stand-ins: 15-cuts,field-a,field-b,field-c; or all")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->excludes(scene);
   command
       ->add_option("--stage", a.study.stages,
                    "how nodes stand, of stick,slip,open or all: a history (default stick)")
@@ -379,7 +390,8 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
   command
       ->add_option("--h", a.study.cell_sizes,
                    "cell sizes of the box: 1/2,1/4,1/8,1/16 … (default 1/2,1/4)")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->excludes(scene);
   command
       ->add_option("--leading", a.study.leading,
                    "for K + E: exact,fsai,ic,ilu,amg,amg-u or all (default exact)")
@@ -408,6 +420,7 @@ void add_solver_study(CLI::App& app, Arguments& a, ExitCode& code) {
       "  faultsim solver-study --h 1/2 --leading all --schur all\n"
       "  faultsim solver-study --h 1/8 --leading exact,amg --json\n"
       "  faultsim solver-study --case field-b --stage all --leading amg-u --schur rac\n"
+      "  faultsim solver-study --scene my-field.json --tier standard --leading amg-u --schur rac\n"
       "Right-preconditioned GMRES without restart on J = [[K + E, C - F], [C^T, 0]];\n"
       "iterations to 1e-6 and 1e-8 of a random and a physical right-hand side. See\n"
       "docs/model.md, section 11.");

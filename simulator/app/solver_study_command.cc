@@ -1,9 +1,11 @@
 #include <cstdio>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "simulator/app/commands.h"
 #include "simulator/app/export_study.h"
+#include "simulator/app/load_scene.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/coupled/box_study.h"
@@ -12,21 +14,32 @@
 #include "simulator/files/json_text.h"
 #include "simulator/files/output_target.h"
 #include "simulator/linalg/blas.h"
+#include "simulator/operators/prepare_operator.h"
 
 namespace faultsim {
 namespace {
 
-/// A body to be studied.
+/// A body to be studied, and how it is called.
 struct StudyBody {
-  StudyCase which = StudyCase::box;
-  int cells_per_metre = 0;  ///< of the box.
-  BulkProblem problem() const {
-    return which == StudyCase::box ? box_study(cells_per_metre) : study_case(which);
-  }
-  std::string name() const {
-    return which == StudyCase::box ? concat("1/", cells_per_metre) : to_string(which);
-  }
+  std::string name, folder;  ///< "1/8", "field-b", "scene"; "box-8", "field-b", "rotliegend".
+  bool is_box = false;
+  std::function<BulkProblem()> problem;
 };
+
+StudyBody box_body(int cells_per_metre) {
+  return {concat("1/", cells_per_metre), concat("box-", cells_per_metre), true,
+          [=] { return box_study(cells_per_metre); }};
+}
+
+StudyBody stand_in(StudyCase which) {
+  return {to_string(which), to_string(which), false, [=] { return study_case(which); }};
+}
+
+StudyBody scene_body(const SceneArguments& arguments) {
+  const auto loaded = std::make_shared<const LoadedScene>(load_scene(arguments));
+  return {"scene", std::filesystem::path(arguments.file).stem(), false,
+          [=] { return bulk_problem(loaded->scene, loaded->plan); }};
+}
 
 /// What is to be studied, in order.
 struct Study {
@@ -67,17 +80,26 @@ int cells_per_metre(const std::string& h, std::vector<Problem>& problems) {
   return 0;
 }
 
-Study read_study(const SolverStudyArguments& arguments) {
-  std::vector<Problem> problems;
-  Study study;
+/// A scene instead of the cases where one is given.
+std::vector<StudyBody> bodies_of(const SolverStudyArguments& arguments,
+                                 std::vector<Problem>& problems) {
+  if (!arguments.scene.file.empty()) return {scene_body(arguments.scene)};
+  std::vector<StudyBody> bodies;
   for (const StudyCase which : kinds_of<StudyCase>(arguments.cases, "--case", problems)) {
     if (which != StudyCase::box) {
-      study.bodies.push_back({which});
+      bodies.push_back(stand_in(which));
       continue;
     }
     for (const std::string& h : arguments.cell_sizes)
-      study.bodies.push_back({which, cells_per_metre(h, problems)});
+      bodies.push_back(box_body(cells_per_metre(h, problems)));
   }
+  return bodies;
+}
+
+Study read_study(const SolverStudyArguments& arguments) {
+  std::vector<Problem> problems;
+  Study study;
+  study.bodies = bodies_of(arguments, problems);
   study.stages = kinds_of<FaultStage>(arguments.stages, "--stage", problems);
   study.leading = kinds_of<LeadingKind>(arguments.leading, "--leading", problems);
   study.schur = kinds_of<SchurKind>(arguments.schur, "--schur", problems);
@@ -95,9 +117,8 @@ nlohmann::ordered_json to_json(const StudyRow& row, const StudyBody& body, Fault
     return iterations < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(iterations);
   };
   nlohmann::ordered_json out = {
-      {"case", to_string(body.which)},
-      {"h", body.which == StudyCase::box ? nlohmann::ordered_json(body.name())
-                                         : nlohmann::ordered_json()},
+      {"case", body.is_box ? "box" : body.folder},
+      {"h", body.is_box ? nlohmann::ordered_json(body.name) : nlohmann::ordered_json()},
       {"stage", to_string(stage)},
       {"displacement_dofs", row.n_displacements},
       {"multiplier_dofs", row.n_multipliers},
@@ -131,13 +152,12 @@ void print_header() {
 
 void print_row(const StudyRow& row, const StudyBody& body, FaultStage stage) {
   const auto text = [](int count) { return count < 0 ? std::string("-") : std::to_string(count); };
-  std::printf("%-7s %8d %7d %-5s  %-6s %-9s  %5s %5s  %5s %5s  %7.2f %7.2f %7.1f%s%s\n",
-              body.name().c_str(), row.n_displacements, row.n_multipliers, to_string(stage),
-              to_string(row.choice.leading), to_string(row.choice.schur),
-              text(row.random.to_1e6).c_str(), text(row.random.to_1e8).c_str(),
-              text(row.physical.to_1e6).c_str(), text(row.physical.to_1e8).c_str(),
-              row.setup_seconds, row.solve_seconds, row.bytes / 1e6,
-              row.failure.empty() ? "" : "  ", row.failure.c_str());
+  std::printf(
+      "%-7s %8d %7d %-5s  %-6s %-9s  %5s %5s  %5s %5s  %7.2f %7.2f %7.1f%s%s\n", body.name.c_str(),
+      row.n_displacements, row.n_multipliers, to_string(stage), to_string(row.choice.leading),
+      to_string(row.choice.schur), text(row.random.to_1e6).c_str(), text(row.random.to_1e8).c_str(),
+      text(row.physical.to_1e6).c_str(), text(row.physical.to_1e8).c_str(), row.setup_seconds,
+      row.solve_seconds, row.bytes / 1e6, row.failure.empty() ? "" : "  ", row.failure.c_str());
   std::fflush(stdout);
 }
 
@@ -149,10 +169,8 @@ ExitCode export_systems(const Study& todo, const SolverStudyArguments& arguments
     const BulkProblem problem = body.problem();
     const TwoSidedBulk bulk(problem);
     for (const FaultStage stage : todo.stages) {
-      const std::string size =
-          body.which == StudyCase::box ? concat("-", body.cells_per_metre) : std::string();
       const std::filesystem::path target =
-          arguments.export_to / concat(to_string(body.which), size, "-", to_string(stage));
+          arguments.export_to / concat(body.folder, "-", to_string(stage));
       export_study(target, bulk, make_saddle_point(bulk, stage_of(problem.mesh, stage)));
       exported.push_back(target.string());
       if (!arguments.json) std::printf("wrote %s\n", target.c_str());

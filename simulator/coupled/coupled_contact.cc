@@ -53,7 +53,11 @@ struct CoupledContact::Iterate {
 
 CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws,
                                const CoupledContactOptions& options)
-    : bulk_(bulk), options_(options), all_held_(make_saddle_point(bulk)), linear_(options.solver) {
+    : bulk_(bulk),
+      options_(options),
+      all_held_(make_saddle_point(bulk)),
+      linear_(options.solver),
+      held_(bulk.ranks()) {
   if (runs_on_ranks(options.solver)) bulk.engine();  // before anything is multiplied
   const Eigen::VectorXd diagonal = bulk.diagonal();
   std::vector<double> inverse_area;
@@ -236,10 +240,13 @@ double CoupledContact::improve(const Eigen::VectorXd& force, const ContactState&
 }
 
 /// Newton with the active set, until neither states nor values change.
-/// @param level  the largest traction that the load brings, Pa: where faults open, theirs vanish.
-void CoupledContact::iterate(const Eigen::VectorXd& force, double level, const ContactState& before,
-                             Iterate& at, CoupledStepReport& report) const {
-  ForcingTerm forcing(options_.krylov_tolerance, 0.1 * options_.traction_tolerance);
+/// @param level     the largest traction that the load brings, Pa: where faults open, theirs
+///                  vanish.
+/// @param residual  N, that the load step asks to be balanced.
+void CoupledContact::iterate(const Eigen::VectorXd& force, double level, double residual,
+                             const ContactState& before, Iterate& at,
+                             CoupledStepReport& report) const {
+  ForcingTerm forcing(options_.krylov_tolerance, 0.1 * options_.traction_tolerance, residual);
   while (!report.converged) {
     if (report.newton_iterations() == options_.max_newton_iterations) {
       report.reason = concat("Newton's method goes on changing after ", report.newton_iterations(),
@@ -268,6 +275,28 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, double level, const C
   report.newton.end = SearchEnd::balanced;
 }
 
+/// The end of a load step: what is held rests, and what slips has slipped.
+void CoupledContact::settle(double tolerance, const ContactState& before, Iterate& at,
+                            ContactState& state) const {
+  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
+    const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
+    if (at.state[k] != FaultState::open) at.increment[node.first] = -before.jump[node.first];
+    // A node that slips by less than is told apart was set to slip on the way only.
+    if (at.state[k] == FaultState::slip &&
+        node.stiffness * shear_of(node.shear, at.increment).norm() <= tolerance)
+      at.state[k] = FaultState::stick;
+    if (at.state[k] == FaultState::stick) set_shear(node.shear, {0, 0}, at.increment);
+    const FrictionState after =
+        node.law.after(state_of(node, before, k), shear_of(node.shear, at.increment),
+                       at.state[k] == FaultState::open);
+    state.slip_path[k] = after.path;
+    state.cohesion_lost[k] = !after.cohesive;
+  }
+  state.jump(dof_) += at.increment;
+  state.traction(dof_) = at.traction;
+  state.state = at.state;
+}
+
 CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState& state,
                                           Eigen::VectorXd& u) const {
   FAULTSIM_DEMAND(load.factors.size() == loads_.size() && load.background.size() == n_dofs() &&
@@ -287,29 +316,23 @@ CoupledStepReport CoupledContact::advance(const CoupledLoad& load, ContactState&
   for (const FaultState s : state.state) {
     at.state.push_back(s == FaultState::open ? s : FaultState::stick);
   }
+  HeldResponses::Response held;
+  held.load =
+      force - bulk_.times_stiffness(u) - all_held_.constraint * before.traction(own_).eval();
+  held_.add_nearest(held.load, at.u, at.traction);
   const double level = std::max(
       {load.background.lpNorm<Eigen::Infinity>(), state.traction.lpNorm<Eigen::Infinity>(), 1.0});
-  iterate(force, level, before, at, report);
+  const double residual = std::sqrt(bulk_.ranks().sum(held.load.squaredNorm()));
+  iterate(force, level, residual, before, at, report);
   if (!report.converged) return report;
-  const double tolerance =
-      options_.traction_tolerance * std::max(level, at.traction.lpNorm<Eigen::Infinity>());
-  for (int k = 0; k < static_cast<int>(nodes_.size()); ++k) {
-    const Node& node = nodes_[k];  // what is held moves by what the last linear step left over
-    if (at.state[k] != FaultState::open) at.increment[node.first] = -before.jump[node.first];
-    // A node that slips by less than is told apart was set to slip on the way only.
-    if (at.state[k] == FaultState::slip &&
-        node.stiffness * shear_of(node.shear, at.increment).norm() <= tolerance)
-      at.state[k] = FaultState::stick;
-    if (at.state[k] == FaultState::stick) set_shear(node.shear, {0, 0}, at.increment);
-    const FrictionState after =
-        node.law.after(state_of(node, before, k), shear_of(node.shear, at.increment),
-                       at.state[k] == FaultState::open);
-    state.slip_path[k] = after.path;
-    state.cohesion_lost[k] = !after.cohesive;
+  if (count(before.state, FaultState::open) == 0 &&
+      count(at.state, FaultState::stick) == static_cast<int>(nodes_.size())) {
+    held.u = at.u - u;
+    held.traction = at.traction - before.traction;
+    held_.keep(std::move(held));
   }
-  state.jump(dof_) += at.increment;
-  state.traction(dof_) = at.traction;
-  state.state = at.state;
+  settle(options_.traction_tolerance * std::max(level, at.traction.lpNorm<Eigen::Infinity>()),
+         before, at, state);
   u = at.u;
   return report;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulator/contact/contact.h"
+#include "simulator/coupled/held_responses.h"
 #include "simulator/coupled/linear_steps.h"
 
 namespace faultsim {
@@ -46,7 +47,8 @@ struct CoupledStepReport {
 /// augmented traction y = t'_T + r Δg_T promises, (|y| − τ_L)/r along y, which stays finite when
 /// slip begins.
 ///
-/// A load step is taken at once; instabilities are not followed: a step without solution next to
+/// Newton starts from the response of a body whose faults rest, as far as steps before tell it. A
+/// load step is taken at once; instabilities are not followed: a step without solution next to
 /// the last one does not converge.
 class CoupledContact {
  public:
@@ -74,8 +76,9 @@ class CoupledContact {
   void linearise(const ContactState& before, Iterate& at) const;
   double improve(const Eigen::VectorXd& force, const ContactState& before, ForcingTerm& forcing,
                  Iterate& at, CoupledStepReport& report) const;
-  void iterate(const Eigen::VectorXd& force, double level, const ContactState& before, Iterate& at,
-               CoupledStepReport& report) const;
+  void iterate(const Eigen::VectorXd& force, double level, double residual,
+               const ContactState& before, Iterate& at, CoupledStepReport& report) const;
+  void settle(double tolerance, const ContactState& before, Iterate& at, ContactState& state) const;
   static FrictionState state_of(const Node& node, const ContactState& state, int k);
   SlippingPoint point_of(const ContactState& before, const Iterate& at, int k) const;
   Eigen::VectorXd of_all(const Eigen::VectorXd& own) const;
@@ -90,7 +93,8 @@ class CoupledContact {
   Eigen::VectorXd inverse_area_;  ///< per fault dof.
   std::vector<int> dof_;          ///< of the operator, per fault dof.
   std::vector<Eigen::VectorXd> loads_;
-  mutable LinearSteps linear_;  ///< its preconditioner is kept from step to step.
+  mutable LinearSteps linear_;  ///< its preconditioner is kept from step to step,
+  mutable HeldResponses held_;  ///< and so is what steps without slip say of the next.
 };
 
 }  // namespace faultsim

@@ -47,7 +47,7 @@ void LinearSteps::solve_to(const Eigen::VectorXd& f, const Eigen::VectorXd& g, E
 
 double ForcingTerm::next(double norm) {
   constexpr double kGamma = 0.9;
-  if (before_ == 0) first_ = norm;
+  if (first_ == 0) first_ = norm;
   const double ratio = before_ > 0 ? norm / before_ : HUGE_VAL;
   before_ = norm;
   const double enough = norm > 0 ? asked_ * first_ / norm : loosest_;

@@ -51,13 +51,15 @@ class LinearSteps {
 class ForcingTerm {
  public:
   /// @param loosest  the first, and the largest. @param asked  of the load step's first residual.
-  ForcingTerm(double loosest, double asked) : loosest_(loosest), asked_(asked) {}
+  /// @param first  that residual where Newton starts from a better place; 0: the first that comes.
+  ForcingTerm(double loosest, double asked, double first = 0)
+      : loosest_(loosest), asked_(asked), first_(first) {}
   /// @param norm  of the residual that the next linear step starts from.
   double next(double norm);
 
  private:
   double loosest_, asked_;
-  double first_ = 0, before_ = 0;  ///< residuals.
+  double first_, before_ = 0;  ///< residuals.
 };
 
 }  // namespace faultsim

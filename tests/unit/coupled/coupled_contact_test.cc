@@ -108,6 +108,23 @@ TEST(CoupledContact, IsTheCondensedPathOverAHistoryWithStickSlipAndOpening) {
   expect_all_states(paths, 20);
 }
 
+TEST(CoupledContact, KnowsAStepWithoutSlipFromThoseBefore) {
+  TwoPaths paths(friction(1.2, 1.2, 50e6), false, {LeadingKind::amg, SchurKind::rac});
+  const auto iterations = [&paths] {
+    int sum = 0;
+    for (const int n : paths.report.linear.krylov_iterations) sum += n;
+    return sum;
+  };
+  paths.step({-1e6, 0, 0, 0}, 0);
+  const int unknown = iterations();
+  paths.step({-1e6, 0, 0, -1e6}, 0);
+  EXPECT_GT(iterations(), unknown / 2) << "another load";
+  paths.step({-3e6, 0, 0, 2e6}, 0);
+  EXPECT_EQ(paths.report.newton_iterations(), 1);
+  EXPECT_LT(iterations(), unknown / 2);
+  EXPECT_EQ(paths.seen[1] + paths.seen[2], 0) << "or nothing was linear";
+}
+
 TEST(CoupledContact, IsTheCondensedPathWhereStrengthFallsWithSlip) {
   for (const bool cumulated : {false, true}) {
     TwoPaths paths(friction(0.45, 0.3, 0.2e6), cumulated, {LeadingKind::exact, SchurKind::bds});

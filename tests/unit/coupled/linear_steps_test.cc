@@ -26,6 +26,12 @@ TEST(ForcingTerm, AsksForNoMoreThanTheLoadStep) {
   EXPECT_EQ(forcing.next(5e-9), 1e-2);
 }
 
+TEST(ForcingTerm, KnowsWhatTheStepAskedForWhereNewtonStartsNearby) {
+  ForcingTerm forcing(1e-2, 1e-10, 1e4);
+  EXPECT_EQ(forcing.next(1), 1e-2);
+  EXPECT_DOUBLE_EQ(forcing.next(1e-3), 1e-3) << "to 1e-6, a ten thousand-millionth of the load";
+}
+
 constexpr SolverChoice kKept{LeadingKind::amg, SchurKind::rac};
 
 /// A Newton step with these states at the nodes, and what is left of its residual.
