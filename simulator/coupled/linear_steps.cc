@@ -46,12 +46,13 @@ void LinearSteps::solve_to(const Eigen::VectorXd& f, const Eigen::VectorXd& g, E
 }
 
 double ForcingTerm::next(double norm) {
-  constexpr double kGamma = 0.9;
+  constexpr double kGamma = 0.9, kConfirm = 0.1;
   if (first_ == 0) first_ = norm;
   const double ratio = before_ > 0 ? norm / before_ : HUGE_VAL;
   before_ = norm;
   const double enough = norm > 0 ? asked_ * first_ / norm : loosest_;
-  return std::min(loosest_, std::max(kGamma * ratio * ratio, enough));
+  const double loosest = std::max(loosest_, std::min(kConfirm, enough));
+  return std::min(loosest, std::max(kGamma * ratio * ratio, enough));
 }
 
 }  // namespace faultsim

@@ -47,10 +47,12 @@ class LinearSteps {
 
 /// How far a linear step is solved: as far as Newton's method gains by it (Eisenstat and Walker,
 /// SIAM J. Sci. Comput. 17, 1996, choice 2: 0.9 (|r|/|r of the step before|)²), and no further than
-/// the load step asks for. Their safeguard begins at 0.1, above any `loosest` taken here.
+/// the load step asks for: where that is reached by another decade, by that. Their safeguard begins
+/// at 0.1, above any `loosest` taken here.
 class ForcingTerm {
  public:
-  /// @param loosest  the first, and the largest. @param asked  of the load step's first residual.
+  /// @param loosest  the first, and the largest of what is not the last. @param asked  of the load
+  /// step's first residual.
   /// @param first  that residual where Newton starts from a better place; 0: the first that comes.
   ForcingTerm(double loosest, double asked, double first = 0)
       : loosest_(loosest), asked_(asked), first_(first) {}

@@ -23,7 +23,8 @@ TEST(ForcingTerm, AsksForNoMoreThanTheLoadStep) {
   ForcingTerm forcing(1e-2, 1e-10);
   forcing.next(5);
   EXPECT_DOUBLE_EQ(forcing.next(5e-7), 1e-3) << "then the residual is 1e-10 of the first";
-  EXPECT_EQ(forcing.next(5e-9), 1e-2);
+  EXPECT_DOUBLE_EQ(forcing.next(5e-9), 0.1);
+  EXPECT_DOUBLE_EQ(forcing.next(5e-11), 0.1) << "which confirms that it is there";
 }
 
 TEST(ForcingTerm, KnowsWhatTheStepAskedForWhereNewtonStartsNearby) {
