@@ -17,7 +17,7 @@
 #include "simulator/flow/field_file.h"
 #include "simulator/grid_scene/grid_pictures.h"
 #include "simulator/grid_scene/grid_scene.h"
-#include "simulator/reading/read_scene.h"
+#include "simulator/simulation/loaded_scene.h"
 
 namespace faultsim {
 namespace {
@@ -190,11 +190,13 @@ class FromGrid {
               << arguments_.output.string() << "\n";
   }
 
-  /// Horizons of a grid may leave no body between them, which only the builder finds out. The scene
-  /// is written all the same: its pictures say more than a refusal.
+  /// Horizons of a grid may leave no body between them, which only the builder finds out, or cells
+  /// of the grid lie over each other. The scene is written all the same: its pictures say more than
+  /// a refusal.
   void say_refusal() const {
     try {
-      read_scene(read_json_file(arguments_.output));
+      LoadedScene loaded = load_scene(read_scene_file(arguments_.output.string(), {}));
+      check_geometry(loaded);
     } catch (const InputError& error) {
       std::cerr
           << "warning: as it stands validate refuses what was written; the keys that are named, "

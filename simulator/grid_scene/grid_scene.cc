@@ -49,10 +49,14 @@ std::string moment(double seconds) {
   return date_text(seconds) + formatted("T%02d:%02d:%02d", s / 3600, s / 60 % 60, s % 60);
 }
 
-std::string csv_of(const ModelSurface& surface) {
-  std::string text = "x [m],y [m],depth [m]\n";
-  for (const Vector3d& at : surface.points)
-    text += formatted("%.3f,%.3f,%.4f\n", at.x(), at.y(), -at.z());
+/// @param first  the surface whose points have the thickness of this one's layer above.
+std::string csv_of(const ModelSurface& surface, const ModelSurface& first) {
+  const bool is_hung = !surface.thickness.empty();
+  std::string text = is_hung ? "x [m],y [m],thickness [m]\n" : "x [m],y [m],depth [m]\n";
+  for (std::size_t p = 0; p < first.points.size(); ++p) {
+    const Vector3d& at = first.points[p];
+    text += formatted("%.3f,%.3f,%.4f\n", at.x(), at.y(), is_hung ? surface.thickness[p] : -at.z());
+  }
   return text;
 }
 
@@ -168,7 +172,7 @@ Json SceneMaker::layers_json() {
     // By the surfaces' own names: those of the user's layers may be no names of files.
     const std::string file = options_.stem + "-" + surface.name + ".csv";
     if (is_base) surface.name = below.name;
-    made_.tables.push_back({file, csv_of(surface)});
+    made_.tables.push_back({file, csv_of(surface, made_.surfaces.front())});
     add(surface.name, is_base ? below.name : rocks_.all[rocks_.reservoir].name, {{"csv", file}});
   }
   for (std::size_t k = rocks_.reservoir + 2; k < rocks_.all.size(); ++k)

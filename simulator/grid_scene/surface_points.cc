@@ -14,6 +14,7 @@
 #include "simulator/corner_point/fault_description.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/fault_columns.h"
+#include "simulator/grid_scene/model_pillars.h"
 
 namespace faultsim::grid_scene {
 namespace {
@@ -52,7 +53,8 @@ class SurfaceMaker {
         options_(options),
         remarks_(remarks),
         map_(grid),
-        least_(options.least_layer > 0 ? options.least_layer : 0.2 * lines.strike) {
+        least_(options.least_layer > 0 ? options.least_layer : 0.2 * lines.strike),
+        pillars_(lines) {
     find_groups();
   }
 
@@ -66,9 +68,12 @@ class SurfaceMaker {
   Level in_group(const Group& group, int layer) const;
   std::vector<int> chosen_layers();
   bool is_thick_enough(int above, int below) const;
-  std::vector<Vector3d> points_of(int layer);
+  void place_points();
+  ModelSurface first_surface(int layer) const;
+  ModelSurface hung_surface(int layer, const ModelSurface& first, const ModelSurface& above) const;
   std::optional<Vector3d> placed(const Group& group, Level level);
-  void add_tips(std::vector<Vector3d>& points) const;
+  void add_tips();
+  std::array<std::size_t, 2> beside_tip(const ModelFault& fault, const Vector2d& tip) const;
   double thinnest() const;
 
   const CornerPointGrid& grid_;
@@ -79,7 +84,13 @@ class SurfaceMaker {
   ColumnMap map_;
   double least_;
   std::vector<Group> groups_;
-  std::set<std::tuple<std::size_t, int, long>> taken_;  ///< fault, side, place along it.
+  ModelPillars pillars_;
+  /// A point of the first surface, and the groups that it is of: one, or both sides of a tip.
+  struct Place {
+    Vector3d at;
+    std::vector<std::size_t> groups;
+  };
+  std::vector<Place> places_;
   int n_left_out_ = 0;
 };
 
@@ -205,7 +216,7 @@ std::optional<Vector3d> SurfaceMaker::placed(const Group& group, Level level) {
     bool is_right = true;
     for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
       if (group.side[f] == 0) continue;
-      const Polyline line = lines_.faults[f].at(level.z, lines_.reference_z);
+      const Polyline line = pillars_.fault_line(f, level.z);
       const corner_point::PlaceOnLine on = corner_point::nearest_on_line(line, at);
       const bool is_beyond = on.along == 0 || on.along >= corner_point::line_length(line);
       if (is_beyond) continue;
@@ -226,42 +237,51 @@ std::optional<Vector3d> SurfaceMaker::placed(const Group& group, Level level) {
   return std::nullopt;
 }
 
+/// Of the points on either side of a fault those nearest to its tip.
+std::array<std::size_t, 2> SurfaceMaker::beside_tip(const ModelFault& fault,
+                                                    const Vector2d& tip) const {
+  std::array<double, 2> nearest = {1e300, 1e300};
+  std::array<std::size_t, 2> found = {0, 0};
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Vector2d at = places_[k].at.head<2>();
+    const auto on = corner_point::nearest_on_line(fault.trace, at);
+    const Vector2d along = fault.trace[on.piece + 1] - fault.trace[on.piece];
+    const std::size_t side =
+        corner_point::cross_product(along, at - fault.trace[on.piece]) > 0 ? 0 : 1;
+    const double away = (at - tip).norm();
+    if (away >= nearest[side]) continue;
+    nearest[side] = away;
+    found[side] = k;
+  }
+  return found;
+}
+
 /// Beyond the active map a fault ends in the rock: there both sides have one depth.
-void SurfaceMaker::add_tips(std::vector<Vector3d>& points) const {
-  std::vector<Vector3d> tips;
+void SurfaceMaker::add_tips() {
+  std::vector<Place> tips;
   for (const ModelFault& fault : lines_.faults) {
     const corner_point::Fault& source = structure_.faults[fault.source];
     for (const bool is_last : {false, true}) {
       const auto& end = is_last ? source.end : source.begin;
       if (end.kind != corner_point::EndKind::grid_edge) continue;
       const Vector2d tip = is_last ? fault.trace.back() : fault.trace.front();
-      std::array<double, 2> nearest = {1e300, 1e300}, z = {0, 0};
-      for (const Vector3d& point : points) {
-        const auto on = corner_point::nearest_on_line(fault.trace, point.head<2>());
-        const Vector2d along = fault.trace[on.piece + 1] - fault.trace[on.piece];
-        const std::size_t side =
-            corner_point::cross_product(along, point.head<2>() - fault.trace[on.piece]) > 0 ? 0 : 1;
-        const double away = (point.head<2>() - tip).norm();
-        if (away >= nearest[side]) continue;
-        nearest[side] = away;
-        z[side] = point.z();
-      }
-      const double mean = (z[0] + z[1]) / 2;
+      const auto [left, right] = beside_tip(fault, tip);
+      const double mean = (places_[left].at.z() + places_[right].at.z()) / 2;
       const Polyline line = fault.at(mean, lines_.reference_z);
       const Vector2d at = is_last ? line.back() : line.front();
-      tips.emplace_back(at.x(), at.y(), mean);
+      tips.push_back(
+          {{at.x(), at.y(), mean}, {places_[left].groups.front(), places_[right].groups.front()}});
     }
   }
-  points.insert(points.end(), tips.begin(), tips.end());
+  places_.insert(places_.end(), tips.begin(), tips.end());
 }
 
-std::vector<Vector3d> SurfaceMaker::points_of(int layer) {
-  std::vector<Vector3d> points;
-  taken_.clear();
-  for (const Group& group : groups_) {
-    Level level = in_group(group, layer);
-    if (layer >= grid_.size[2]) level.z = std::min(level.z, in_group(group, -1).z - least_);
-    const std::optional<Vector3d> point = placed(group, level);
+/// Points of the reservoir's top; surfaces below hang from them.
+void SurfaceMaker::place_points() {
+  std::set<std::tuple<std::size_t, int, long>> taken;  // fault, side, place along it
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    const std::optional<Vector3d> point = placed(group, in_group(group, -1));
     if (!point) {
       n_left_out_ += 1;
       continue;
@@ -272,12 +292,39 @@ std::vector<Vector3d> SurfaceMaker::points_of(int layer) {
       const double along =
           corner_point::nearest_on_line(lines_.faults[f].trace, point->head<2>()).along;
       constexpr double kSame = 5;  // m
-      is_there |= !taken_.emplace(f, group.side[f], std::lround(along / kSame)).second;
+      is_there |= !taken.emplace(f, group.side[f], std::lround(along / kSame)).second;
     }
-    if (!is_there) points.push_back(*point);
+    if (!is_there) places_.push_back({*point, {g}});
   }
-  add_tips(points);
-  return points;
+  add_tips();
+}
+
+ModelSurface SurfaceMaker::first_surface(int layer) const {
+  return {.name = "", .layer = layer, .points = mapped(places_, &Place::at), .thickness = {}};
+}
+
+/// A surface as much below another as it is in the grid, on pillars of the model.
+ModelSurface SurfaceMaker::hung_surface(int layer, const ModelSurface& first,
+                                        const ModelSurface& above) const {
+  ModelSurface surface{.name = "", .layer = layer, .points = {}, .thickness = {}};
+  for (std::size_t p = 0; p < places_.size(); ++p) {
+    const auto n = static_cast<double>(places_[p].groups.size());
+    double z = 0;
+    for (const std::size_t g : places_[p].groups) {
+      const Level level = in_group(groups_[g], layer);
+      const Vector2d own = grid_.pillars[groups_[g].pillar].at(level.z);
+      double met = level.z;
+      constexpr int kRounds = 3;  // planes are flatter than pillars
+      for (int round = 0; round < kRounds; ++round)
+        met = level.z + level.slope.dot(pillars_.at(first.points[p], met) - own);
+      z += met / n;
+    }
+    surface.thickness.push_back(std::max(least_, above.points[p].z() - z));
+    z = above.points[p].z() - surface.thickness.back();
+    const Vector2d at = pillars_.at(first.points[p], z);
+    surface.points.emplace_back(at.x(), at.y(), z);
+  }
+  return surface;
 }
 
 std::vector<ModelSurface> SurfaceMaker::make() {
@@ -292,8 +339,10 @@ std::vector<ModelSurface> SurfaceMaker::make() {
          "--least-layer"});
   std::vector<ModelSurface> surfaces;
   const std::vector<int> layers = chosen_layers();
+  place_points();
   for (std::size_t s = 0; s < layers.size(); ++s) {
-    ModelSurface surface{.name = "", .layer = layers[s], .points = points_of(layers[s])};
+    ModelSurface surface = s == 0 ? first_surface(layers[s])
+                                  : hung_surface(layers[s], surfaces.front(), surfaces.back());
     const bool is_one = layers.size() == 2;
     surface.name = s + 1 == layers.size() ? "underburden"
                    : is_one               ? "reservoir"
@@ -302,7 +351,7 @@ std::vector<ModelSurface> SurfaceMaker::make() {
   }
   if (n_left_out_ > 0)
     remarks_.push_back({RemarkKind::left_out,
-                        counted(n_left_out_, "point of a surface", "points of surfaces") +
+                        counted(n_left_out_, "pillar", "pillars") +
                             " that straightened faults would put on the wrong side",
                         "--straightening"});
   return surfaces;

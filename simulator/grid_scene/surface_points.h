@@ -9,6 +9,9 @@ struct ModelSurface {
   std::string name;  ///< of the layer below it.
   int layer = -1;    ///< k of the grid whose top it is; −1: the reservoir's top; n_k: its base.
   std::vector<Eigen::Vector3d> points;  ///< m, z up.
+  /// m, > 0, per point: below the surface above, on the pillar of the model through the same
+  /// point of the first surface, where `points` lie. Empty of the first one.
+  std::vector<double> thickness;
 };
 
 struct SurfaceOptions {
@@ -23,8 +26,11 @@ struct SurfaceOptions {
 /// A pillar of the grid on a fault has a point for each side of it, on the line of the model's
 /// fault at its depth and a little to its side; its depth goes on there by the slope of its own
 /// columns. Other pillars keep their place; those that the straightened fault would put on the
-/// wrong side are left out. Where the reservoir is thinner than a layer may be, its base lies
-/// deeper; layers of the grid thinner than that are no layers of the model. Said in remarks.
+/// wrong side are left out, of all surfaces. The surfaces below the first hang from its points:
+/// each is as much deeper as the grid's is where the model's pillar through the point meets the
+/// plane of its own columns, so that surfaces cannot cross between points. Where the reservoir is
+/// thinner than a layer may be, its base lies deeper; layers of the grid thinner than that are no
+/// layers of the model. Said in remarks.
 std::vector<ModelSurface> model_surfaces(const corner_point::CornerPointGrid& grid,
                                          const corner_point::GridStructure& structure,
                                          const ModelLines& lines, const SurfaceOptions& options,

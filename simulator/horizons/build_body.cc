@@ -33,9 +33,7 @@ class Planner {
 
   BodyPlan run() {
     check_numbers(body_, problems_);
-    std::vector<DepthSurface> horizons;
-    for (std::size_t k = 0; k < body_.horizons.size(); ++k)
-      horizons.emplace_back(body_.horizons[k].depth, concat("/horizons/", k, "/depth"), problems_);
+    const std::vector<DepthSurface> horizons = depth_surfaces(body_, problems_);
     stop_at_problems();
     const MapLines lines = meeting_lines(body_, problems_);
     stop_at_problems();

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+
+#include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 
 namespace faultsim::horizons {
 namespace {
@@ -91,13 +95,27 @@ double nearest_part(const Vector2d& a, const Vector2d& b, const Vector2d& place)
 
 }  // namespace
 
-PointSurface::PointSurface(std::vector<Vector3d> points) : points_(std::move(points)) {
+double PointSupport::of(const std::vector<double>& values) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (corner[k] >= 0) sum += weight[k] * values[static_cast<std::size_t>(corner[k])];
+  return sum;
+}
+
+PointSurface::PointSurface(std::vector<Vector3d> points) {
   const auto by_place = [](const Vector3d& p, const Vector3d& q) {
     return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y());
   };
-  std::ranges::sort(points_, by_place);
+  std::vector<Vector3d> given = std::move(points);
+  given_.resize(given.size());
+  std::iota(given_.begin(), given_.end(), std::size_t{0});
+  std::ranges::stable_sort(given_, by_place, [&](std::size_t k) { return given[k]; });
+  for (const std::size_t k : given_) points_.push_back(given[k]);
   std::vector<Vector2d> places;
-  for (const Vector3d& p : points_) places.push_back(p.head<2>());
+  for (const Vector3d& p : points_) {
+    places.push_back(p.head<2>());
+    depths_.push_back(p.z());
+  }
   triangles_ = delaunay(places);
   std::map<std::pair<int, int>, int> count;
   for (const std::array<int, 3>& t : triangles_)
@@ -108,6 +126,10 @@ PointSurface::PointSurface(std::vector<Vector3d> points) : points_(std::move(poi
     for (int k = 0; k + 1 < static_cast<int>(points_.size()); ++k) edge_.push_back({k, k + 1});
   if (edge_.empty()) edge_.push_back({0, 0});
   sort_into_bins();
+}
+
+std::vector<double> PointSurface::in_order(const std::vector<double>& given) const {
+  return mapped(given_, [&](std::size_t k) { return given[k]; });
 }
 
 void PointSurface::sort_into_bins() {
@@ -168,16 +190,10 @@ PointSupport PointSurface::support_at(const Vector2d& place) const {
   return on_edge(place);
 }
 
-double PointSurface::at(const Vector2d& place) const {
-  const PointSupport support = support_at(place);
-  double z = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    if (support.corner[k] >= 0) z += support.weight[k] * points_[support.corner[k]].z();
-  return z;
-}
+double PointSurface::at(const Vector2d& place) const { return support_at(place).of(depths_); }
 
 DepthSurface::DepthSurface(const DepthOverMap& depth, const std::string& pointer,
-                           std::vector<Problem>& problems)
+                           std::vector<Problem>& problems, const DepthSurface* above)
     : depth_(depth) {
   const std::size_t before = problems.size();
   const auto demand_number = [&](bool is_number) {
@@ -189,6 +205,7 @@ DepthSurface::DepthSurface(const DepthOverMap& depth, const std::string& pointer
                           demand_number(std::isfinite(plane.z) && plane.at.allFinite() &&
                                         plane.slope.allFinite());
                         },
+                        [&](const HungDepth& hung) { hang(hung, above, pointer, problems); },
                         [&](const auto& data) { check_depth(data, pointer, problems); }},
              depth);
   if (problems.size() > before) return;
@@ -196,14 +213,49 @@ DepthSurface::DepthSurface(const DepthOverMap& depth, const std::string& pointer
     scattered_ = std::make_shared<PointSurface>(scattered->points);
 }
 
+void DepthSurface::hang(const HungDepth& hung, const DepthSurface* above,
+                        const std::string& pointer, std::vector<Problem>& problems) {
+  const auto refuse = [&](const std::string& what, const std::string& cure) {
+    problems.push_back({pointer, 0, what, cure});
+  };
+  if (above == nullptr || above->scattered() == nullptr)
+    return refuse("a thickness is that of points, and the horizon above has none",
+                  "give the horizon above by points, or this one by depths");
+  const std::size_t n = above->scattered()->points().size();
+  if (hung.thickness.size() != n)
+    return refuse(concat(hung.thickness.size(), " thicknesses for ", counted(n, "point", "points"),
+                         " of the horizon above"),
+                  "give one for each");
+  if (!std::ranges::all_of(hung.thickness, [](double t) { return t > 0 && std::isfinite(t); }))
+    return refuse("a thickness is not above 0", "give metres, above 0");
+  scattered_ = above->scattered_;
+  thickness_ = scattered_->in_order(hung.thickness);
+  below_points_ = above->below_points_;
+  below_points_.resize(n, 0);
+  for (std::size_t k = 0; k < n; ++k) below_points_[k] += thickness_[k];
+}
+
 double DepthSurface::at(const Vector2d& place) const {
-  return std::visit(DepthCases{[](const ConstantDepth& one) { return one.z; },
-                               [&](const PlaneDepth& plane) {
-                                 return plane.z + plane.slope.dot(place - plane.at);
-                               },
-                               [&](const GridDepth& grid) { return on_grid(grid, place); },
-                               [&](const PointDepth&) { return scattered_->at(place); }},
-                    depth_);
+  return std::visit(
+      DepthCases{
+          [](const ConstantDepth& one) { return one.z; },
+          [&](const PlaneDepth& plane) { return plane.z + plane.slope.dot(place - plane.at); },
+          [&](const GridDepth& grid) { return on_grid(grid, place); },
+          [&](const PointDepth&) { return scattered_->at(place); },
+          [&](const HungDepth&) {
+            const PointSupport support = scattered_->support_at(place);
+            return support.of(scattered_->depths()) - support.of(below_points_);
+          }},
+      depth_);
+}
+
+std::vector<DepthSurface> depth_surfaces(const LayeredBody& body, std::vector<Problem>& problems) {
+  std::vector<DepthSurface> all;
+  all.reserve(body.horizons.size());
+  for (std::size_t k = 0; k < body.horizons.size(); ++k)
+    all.emplace_back(body.horizons[k].depth, concat("/horizons/", k, "/depth"), problems,
+                     k == 0 ? nullptr : &all[k - 1]);
+  return all;
 }
 
 }  // namespace faultsim::horizons

@@ -42,7 +42,16 @@ struct PointDepth {
   std::vector<Eigen::Vector3d> points;
 };
 
-using DepthOverMap = std::variant<ConstantDepth, PlaneDepth, GridDepth, PointDepth>;
+/// A horizon that hangs from scattered points: how much deeper than the horizon above it, m, > 0,
+/// on the pillar through each point of the PointDepth that is the next above. Interpolated from the
+/// same points with the same sight as their depths, and never below half of the least of those: it
+/// cannot cross the horizon above, whatever the points say. It keeps that thickness where a fault
+/// has a throw of its own.
+struct HungDepth {
+  std::vector<double> thickness;
+};
+
+using DepthOverMap = std::variant<ConstantDepth, PlaneDepth, GridDepth, PointDepth, HungDepth>;
 
 /// A surface between two layers.
 struct Horizon {

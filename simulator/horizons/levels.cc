@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "simulator/common/text.h"
 #include "simulator/horizons/meet_pillar.h"
@@ -35,6 +36,8 @@ class LevelFinder {
               const MatrixXd& throws) const;
   void find_depths(std::size_t horizon, const MatrixXd& throws);
   void find_sided_depths(const SidedHorizon& sided, const MatrixXd& throws);
+  void hang(std::size_t horizon, const SidedHorizon* sided);
+  std::vector<int> places_of(const SidedHorizon& sided) const;
   void find_all_depths();
   void check_order();
   void check_beyond_ends();
@@ -84,10 +87,35 @@ void LevelFinder::find_depths(std::size_t horizon, const MatrixXd& throws) {
     levels_.horizons[p].push_back(meet(surface, p, throws));
 }
 
-void LevelFinder::find_sided_depths(const SidedHorizon& sided, const MatrixXd& throws) {
+/// A horizon's own places, per place of the map.
+std::vector<int> LevelFinder::places_of(const SidedHorizon& sided) const {
   std::vector<int> own(cut_.n_places());
   for (std::size_t t = 0; t < map_.triangles.size(); ++t)
     for (std::size_t v = 0; v < 3; ++v) own[cut_.places[t][v]] = sided.cut().places[t][v];
+  return own;
+}
+
+/// A horizon at its thickness below the one above. @param sided  of the points that both have.
+void LevelFinder::hang(std::size_t horizon, const SidedHorizon* sided) {
+  const DepthSurface& surface = horizons_[horizon];
+  if (sided != nullptr) {
+    const std::vector<int> own = places_of(*sided);
+    const std::vector<double> thickness = sided->beside(surface.thickness());
+    for (std::size_t p = 0; p < cut_.n_places(); ++p)
+      levels_.horizons[p].push_back(levels_.horizons[p].back() - thickness[own[p]]);
+    return;
+  }
+  std::size_t first = horizon;  // that has the points
+  while (!horizons_[first].thickness().empty()) --first;
+  for (std::size_t p = 0; p < cut_.n_places(); ++p) {
+    std::vector<double>& z = levels_.horizons[p];
+    const Eigen::Vector2d at = pillars_.in_map(cut_.vertex[p], z[first]);
+    z.push_back(z.back() - surface.scattered()->support_at(at).of(surface.thickness()));
+  }
+}
+
+void LevelFinder::find_sided_depths(const SidedHorizon& sided, const MatrixXd& throws) {
+  const std::vector<int> own = places_of(sided);
   for (std::size_t p = 0; p < cut_.n_places(); ++p) {
     const bool is_moved = !throws.row(static_cast<Eigen::Index>(p)).isZero(0);
     const double z = is_moved ? sided.depth(own[p],
@@ -107,15 +135,21 @@ void LevelFinder::find_all_depths() {
   const MapLocator locator(body_, map_, sides, pillars_);
   const bool has_sides =
       std::ranges::any_of(body_.faults, [](const LayeredFault& fault) { return !fault.moved; });
+  std::optional<SidedHorizon> sided;  // of the points last met
   for (std::size_t k = 0; k < horizons_.size(); ++k) {
+    if (!horizons_[k].thickness().empty()) {
+      if (problems_.empty()) hang(k, sided ? &*sided : nullptr);
+      continue;
+    }
     const PointSurface* points = horizons_[k].scattered();
+    sided.reset();
     if (points == nullptr || !has_sides) {
       find_depths(k, throws);
       continue;
     }
-    const SidedHorizon sided({body_, map_, sides, pillars_, locator}, static_cast<int>(k), *points,
-                             problems_);
-    if (problems_.empty()) find_sided_depths(sided, throws);
+    sided.emplace(SidedGround{body_, map_, sides, pillars_, locator}, static_cast<int>(k), *points,
+                  problems_);
+    if (problems_.empty()) find_sided_depths(*sided, throws);
   }
 }
 

@@ -52,7 +52,7 @@ SidedHorizon::SidedHorizon(const SidedGround& ground, int horizon, const PointSu
     cut_along_pieces();
     find_depths();
   } while (join_beyond_ends());
-  if (check_parts(problems)) fill_unseen();
+  if (check_parts(problems)) fill_unseen(depth_);
 }
 
 /// Of faults without a throw, where points near them are not all above or below their ends.
@@ -210,18 +210,36 @@ bool SidedHorizon::check_parts(std::vector<Problem>& problems) const {
   return are_all_known;
 }
 
-void SidedHorizon::fill_unseen() {
+void SidedHorizon::fill_unseen(std::vector<double>& values) const {
   std::vector<bool> is_known;
-  for (const double z : depth_) is_known.push_back(!std::isnan(z));
+  for (const double value : values) is_known.push_back(!std::isnan(value));
   if (!contains(is_known, false)) return;
-  const auto n = static_cast<Eigen::Index>(depth_.size());
+  const auto n = static_cast<Eigen::Index>(values.size());
   Eigen::VectorXd known = Eigen::VectorXd::Zero(n);
   for (Eigen::Index p = 0; p < n; ++p)
-    if (is_known[p]) known[p] = depth_[p];
+    if (is_known[p]) known[p] = values[p];
   const MapOperator op =
       map_operator(ground_.map.vertices, ground_.map.triangles, cut_.places, cut_.n_places());
   const Eigen::VectorXd filled = fill_between(op, Eigen::VectorXd::Zero(n), is_known, known);
-  depth_.assign(filled.begin(), filled.end());
+  values.assign(filled.begin(), filled.end());
+}
+
+std::vector<double> SidedHorizon::beside(const std::vector<double>& values) const {
+  std::vector<double> found;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t place = 0; place < cut_.n_places(); ++place) {
+    const Vector2d xy = ground_.pillars.in_map(cut_.vertex[place], depth_[place]);
+    const double value = points_.is_seen(barriers_, from_[place], xy)
+                             ? surface_.support_at(xy).of(values)
+                             : points_.fitted(values, barriers_, from_[place], xy)
+                                   .value_or(std::numeric_limits<double>::quiet_NaN());
+    if (value < least) least = value;
+    found.push_back(value);
+  }
+  fill_unseen(found);
+  // Filled by linear elements, whose values may leave the range of those that are known.
+  for (double& value : found) value = std::max(value, least);
+  return found;
 }
 
 }  // namespace faultsim::horizons

@@ -45,6 +45,9 @@ class SidedHorizon {
   double depth(int place) const { return depth_[place]; }
   /// The same where throws are added: `meet` knows them.
   double depth(int place, const Meet& meet) const;
+  /// What else points have, > 0, per place: from the points, and by the rule, that its depth is
+  /// from; of places that see none as even as can be.
+  std::vector<double> beside(const std::vector<double>& values) const;
 
  private:
   using Pieces = std::vector<TracePiece>;
@@ -57,7 +60,7 @@ class SidedHorizon {
   std::string names_around(const std::vector<int>& parts, int part) const;
   void find_depths();
   bool join_beyond_ends();
-  void fill_unseen();
+  void fill_unseen(std::vector<double>& values) const;
 
   SidedGround ground_;
   int horizon_;

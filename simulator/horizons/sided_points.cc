@@ -71,27 +71,50 @@ bool SidedPoints::is_seen(const MapBarriers& barriers, const Vector2d& from,
   return support.away == 0 || !barriers.is_within(from, support.away);
 }
 
-std::optional<LocalFit> SidedPoints::fit(const MapBarriers& barriers, const Vector2d& from) const {
+std::vector<SidedPoints::Candidate> SidedPoints::seen(const MapBarriers& barriers,
+                                                      const Vector2d& from) const {
   const auto all = static_cast<double>(extent_ + (from - low_).norm());
-  std::vector<SeenPoint> seen;
+  std::vector<Candidate> seen;
   std::size_t n_looked_at = 0;
   for (double within = 3 * bin_size_;; within *= 2) {
     const std::vector<Candidate> near = nearest(from, within);
     for (; n_looked_at < std::min(near.size(), kMostLookedAt); ++n_looked_at) {
       const double away = near[n_looked_at].away;
       const int k = near[n_looked_at].point;
-      const Eigen::Vector3d& at = surface_.points()[k];
-      const bool is_by_another = std::ranges::any_of(seen, [&](const SeenPoint& other) {
-        return (other.at - at).head<2>().norm() < kThin * away;
+      const auto at = [&](int point) { return surface_.points()[point].head<2>(); };
+      const bool is_by_another = std::ranges::any_of(seen, [&](const Candidate& other) {
+        return (at(other.point) - at(k)).norm() < kThin * away;
       });
       if (is_by_another || !barriers.sees(from, on_map_[k])) continue;
-      seen.push_back({at, away});
-      if (seen.size() == kMostSeen) return LocalFit(seen, bin_size_);
+      seen.push_back(near[n_looked_at]);
+      if (seen.size() == kMostSeen) return seen;
     }
     if (n_looked_at == kMostLookedAt || within > all) break;
   }
-  if (seen.empty()) return std::nullopt;
-  return LocalFit(seen, bin_size_);
+  return seen;
+}
+
+std::optional<LocalFit> SidedPoints::fit(const MapBarriers& barriers, const Vector2d& from) const {
+  std::vector<SeenPoint> points;
+  for (const Candidate& one : seen(barriers, from))
+    points.push_back({surface_.points()[one.point], one.away});
+  if (points.empty()) return std::nullopt;
+  return LocalFit(points, bin_size_);
+}
+
+std::optional<double> SidedPoints::fitted(const std::vector<double>& values,
+                                          const MapBarriers& barriers, const Vector2d& from,
+                                          const Vector2d& xy) const {
+  std::vector<SeenPoint> points;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Candidate& one : seen(barriers, from)) {
+    const Vector2d at = surface_.points()[one.point].head<2>();
+    const double value = values[static_cast<std::size_t>(one.point)];
+    points.push_back({{at.x(), at.y(), value}, one.away});
+    least = std::min(least, value);
+  }
+  if (points.empty()) return std::nullopt;
+  return std::max(LocalFit(points, bin_size_).at(xy), least / 2);
 }
 
 std::pair<double, double> SidedPoints::depths_near(const Vector2d& from) const {

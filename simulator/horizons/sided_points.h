@@ -31,6 +31,10 @@ class SidedPoints {
   /// at 1.7 spacings of points from the nearest one, where that is further away. Empty
   /// if none is seen.
   std::optional<LocalFit> fit(const MapBarriers& barriers, const Eigen::Vector2d& from) const;
+  /// The same to other values of the same points, one per point of the surface, > 0; and what they
+  /// are at a place at x, y: no less than half of the least of those seen.
+  std::optional<double> fitted(const std::vector<double>& values, const MapBarriers& barriers,
+                               const Eigen::Vector2d& from, const Eigen::Vector2d& xy) const;
   /// The least and the largest depth of the points nearest to a place, of all sides.
   std::pair<double, double> depths_near(const Eigen::Vector2d& from) const;
 
@@ -40,6 +44,7 @@ class SidedPoints {
     int point;
   };
   std::vector<Candidate> nearest(const Eigen::Vector2d& from, double within) const;
+  std::vector<Candidate> seen(const MapBarriers& barriers, const Eigen::Vector2d& from) const;
 
   const PointSurface& surface_;
   const std::vector<Eigen::Vector2d>& on_map_;

@@ -58,6 +58,8 @@ class BodyReader {
   void read_layers();
   void read_top(const std::string& at, std::size_t layer);
   horizons::DepthOverMap read_surface(const std::string& at);
+  horizons::DepthOverMap hung(const std::string& at, const std::string& name,
+                              const HorizonTable& table);
   void read_compartments();
   void read_dividers();
   void read_fault(const std::string& at);
@@ -77,6 +79,7 @@ class BodyReader {
   SceneReader& reader_;
   const Scene& scene_;
   BodyOfKeys result_;
+  std::vector<Eigen::Vector3d> above_;  ///< points that a thickness below them may be given for.
   /// Of faults with a surface, by number: SurfaceLines::reached.
   std::map<std::size_t, std::vector<std::array<double, 2>>> reached_;
   horizons::LayeredBody& body_ = result_.body;
@@ -122,8 +125,10 @@ void BodyReader::read_top(const std::string& at, std::size_t layer) {
 
 horizons::DepthOverMap BodyReader::read_surface(const std::string& at) {
   const nlohmann::json* top = reader_.find(at);
-  if (top == nullptr || !top->is_object()) return horizons::ConstantDepth{-reader_.real(at)};
-  const std::string name = reader_.text(at + "/csv");
+  const bool is_level = top == nullptr || !top->is_object();
+  const std::string name = is_level ? "" : reader_.text(at + "/csv");
+  if (name.empty()) above_.clear();
+  if (is_level) return horizons::ConstantDepth{-reader_.real(at)};
   if (name.empty()) {
     horizons::PlaneDepth plane{-reader_.real(at + "/depth")};
     if (reader_.has(at + "/at")) plane.at = pair(at + "/at");
@@ -134,11 +139,43 @@ horizons::DepthOverMap BodyReader::read_surface(const std::string& at) {
   try {
     const std::string text = table_text(document.value, document.source, name);
     result_.tables += text;
-    return horizons::PointDepth{parse_horizon_csv(text, name)};
+    const HorizonTable table = parse_horizon_csv(text, name);
+    if (table.is_thickness) return hung(at + "/csv", name, table);
+    above_ = table.points;
+    return horizons::PointDepth{table.points};
   } catch (const InputError& error) {
+    above_.clear();
     reader_.table_problems(at + "/csv", name, error);
     return horizons::ConstantDepth{kNaN};
   }
+}
+
+/// A table of thicknesses: it has the places of the table above, line by line.
+horizons::DepthOverMap BodyReader::hung(const std::string& at, const std::string& name,
+                                        const HorizonTable& table) {
+  const horizons::ConstantDepth unknown{kNaN};
+  const auto refuse = [&](const std::string& what) {
+    reader_.problem(at, name + what,
+                    "give a thickness for each line of the table of the layer above, with its x "
+                    "and y in its order, or write depth [m] for a surface by itself");
+    return unknown;
+  };
+  if (above_.empty())
+    return refuse(" has thicknesses, and the top of the layer above is no table of points");
+  if (table.points.size() != above_.size())
+    return refuse(concat(" has ", counted(table.points.size(), "thickness", "thicknesses"),
+                         ", and the table of the layer above ",
+                         counted(above_.size(), "point", "points")));
+  horizons::HungDepth below;
+  for (std::size_t k = 0; k < above_.size(); ++k) {
+    const Eigen::Vector3d& point = table.points[k];
+    if (point.head<2>() != above_[k].head<2>())
+      return refuse(concat(" line ", table.line[k], ": x ", point.x(), ", y ", point.y(),
+                           " m is not the place of the point in the table of the layer above, x ",
+                           above_[k].x(), ", y ", above_[k].y(), " m"));
+    below.thickness.push_back(point.z());
+  }
+  return below;
 }
 
 void BodyReader::read_compartments() {
@@ -314,9 +351,8 @@ std::vector<std::size_t> BodyReader::reservoir_horizons() const {
 void BodyReader::check_reach() {
   if (reached_.empty() || !reader_.sound("/geometry") || !reader_.sound("/faults")) return;
   std::vector<Problem> problems;  // said by the builder
-  std::vector<horizons::DepthSurface> tops;
-  for (const std::size_t h : reservoir_horizons())
-    tops.emplace_back(body_.horizons[h].depth, "", problems);
+  const std::vector<horizons::DepthSurface> all = horizons::depth_surfaces(body_, problems);
+  const auto tops = mapped(reservoir_horizons(), [&](std::size_t h) { return all[h]; });
   if (tops.empty() || !problems.empty()) return;
   for (const auto& [f, reached] : reached_) {
     const LayeredFault& fault = body_.faults[f];

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 
@@ -64,6 +65,83 @@ TEST(RandomScenes, HaveLinesThatFitAndCompartmentsThatArePartedByThem) {
   EXPECT_GE(n_built, kGrids * 9 / 10);
   EXPECT_GE(n_drawn, n_faults * 9 / 10);
   EXPECT_GE(n_parted, n_columns * 9 / 10);
+}
+
+/// The body of a scene with its surfaces.
+horizons::LayeredBody body_of(const GridScene& made) {
+  horizons::LayeredBody body = flat_body(made);
+  body.horizons.clear();
+  for (const ModelSurface& one : made.surfaces) {
+    if (one.thickness.empty())
+      body.horizons.push_back({one.name, horizons::PointDepth{one.points}});
+    else
+      body.horizons.push_back({one.name, horizons::HungDepth{one.thickness}});
+  }
+  return body;
+}
+
+/// A thin reservoir on pillars whose depths are off by `noise`, with a throw of many thicknesses.
+corner_point::CornerPointGrid noisy_grid(unsigned seed, double noise) {
+  corner_point::MadeGrid plan = grid_of_a_fault(1.2);
+  plan.thickness = {3, 0, 4};
+  corner_point::CornerPointGrid grid = made(plan);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> off(0, noise);
+  const auto [n_i, n_j, n_k] = grid.size;
+  std::vector<double> of_pillar;
+  for (int p = 0; p < (n_i + 1) * (n_j + 1); ++p) of_pillar.push_back(off(random));
+  std::size_t corner = 0;
+  for (int plane = 0; plane < 2 * n_k; ++plane)
+    for (int row = 0; row < 2 * n_j; ++row)
+      for (int place = 0; place < 2 * n_i; ++place)
+        grid.corner_z[corner++] +=
+            of_pillar[static_cast<std::size_t>((row + 1) / 2 * (n_i + 1) + (place + 1) / 2)];
+  return grid;
+}
+
+TEST(RandomScenes, OfThinReservoirsWithNoiseHaveSurfacesThatDoNotCross) {
+  const auto builds = [](const horizons::LayeredBody& body) {
+    try {
+      build_body(body, "scene");
+      return true;
+    } catch (const InputError& error) {
+      return std::string(error.what()).find("cross, worst by") == std::string::npos;
+    }
+  };
+  constexpr int kGrids = 6;
+  for (unsigned seed = 0; seed < kGrids; ++seed) {
+    GridSceneOptions options;
+    options.lines.n_cells = 40'000;
+    options.surfaces.least_layer = 5;
+    const GridScene scene = scene_of(noisy_grid(seed, 15), {}, options).made;
+    ASSERT_EQ(scene.surfaces.size(), 2u);
+    const ModelSurface &top = scene.surfaces[0], &base = scene.surfaces[1];
+    ASSERT_EQ(top.points.size(), base.thickness.size());
+    EXPECT_GE(*std::ranges::min_element(base.thickness), 5);
+    EXPECT_TRUE(builds(body_of(scene))) << seed;
+  }
+}
+
+/// Where pillars of the model are not those of the grid, the base is the grid's all the same.
+TEST(RandomScenes, HaveTheirBaseOnTheGridsOwn) {
+  corner_point::MadeGrid plan = grid_of_a_fault(0.6);
+  plan.thickness = {20, 20, 20};
+  const MadeScene all = scene_of(made(plan));
+  const auto& base = all.made.surfaces[1].points;
+  double worst = 0;
+  std::size_t n_inside = 0;
+  for (const Eigen::Vector3d& at : base) {
+    const auto on = corner_point::nearest_on_line(
+        all.made.lines.faults[0].at(at.z(), all.made.lines.reference_z), at.head<2>());
+    if (on.distance < 200 || on.along == 0) continue;
+    // The grid's base below the point of its pillar at the same height.
+    const Vector2d pillar = at.head<2>() - plan.lean * (plan.reference - at.z());
+    const double grids = corner_point::made_top(pillar) - 60, low = grids - 60;
+    worst = std::max(worst, std::min(std::abs(at.z() - grids), std::abs(at.z() - low)));
+    n_inside += 1;
+  }
+  EXPECT_GT(n_inside, 400u);
+  EXPECT_LT(worst, 0.3) << "m; 15 m sines of 4.4 km between pillars 100 m apart";
 }
 
 /// One fault across the grid at any angle, pillars that lean; right is 60 m lower, which tells the

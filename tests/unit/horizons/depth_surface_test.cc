@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -76,6 +77,36 @@ TEST(DepthSurface, FewPointsDo) {
   EXPECT_NEAR(depth_at(line, {2.5, 2.5}), -4, 1e-12);
   EXPECT_NEAR(depth_at(line, {10, 0}), -7, 1e-12) << "constant across";
   EXPECT_NEAR(depth_at(line, {50, 50}), -3, 1e-12);
+}
+
+TEST(DepthSurface, HangsFromPointsWhateverTheirOrder) {
+  LayeredBody body;
+  const std::vector<Vector3d> points = {{10, 0, -5}, {0, 0, -1}, {0, 10, -2}, {10, 10, -6}};
+  body.horizons = {{"top", PointDepth{points}},
+                   {"middle", HungDepth{{4, 1, 2, 3}}},
+                   {"base", HungDepth{{10, 20, 30, 40}}}};
+  std::vector<Problem> problems;
+  const std::vector<DepthSurface> all = depth_surfaces(body, problems);
+  ASSERT_TRUE(problems.empty());
+  const std::array<double, 4> middle = {4, 1, 2, 3}, base = {14, 21, 32, 43};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    EXPECT_NEAR(all[1].at(points[k].head<2>()), points[k].z() - middle[k], 1e-12);
+    EXPECT_NEAR(all[2].at(points[k].head<2>()), points[k].z() - base[k], 1e-12);
+  }
+  body.horizons[2].depth = HungDepth{{10, 20, 30}};
+  depth_surfaces(body, problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].what, HasSubstr("3 thicknesses for 4 points of the horizon above"));
+  body.horizons = {{"top", ConstantDepth{-1}}, {"base", HungDepth{{1}}}};
+  problems.clear();
+  depth_surfaces(body, problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].what, HasSubstr("the horizon above has none"));
+  body.horizons = {{"top", PointDepth{{points[0]}}}, {"base", HungDepth{{0}}}};
+  problems.clear();
+  depth_surfaces(body, problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].what, HasSubstr("a thickness is not above 0"));
 }
 
 TEST(DepthSurface, WhatIsNoSurfaceIsRefused) {

@@ -324,10 +324,43 @@ TEST_F(HorizonsScene, ATableIsAHorizon) {
   embed_tables(travelled);
   std::filesystem::remove(scratch_.path() / "top.csv");
   EXPECT_NEAR(read_scene(travelled).box.regions[0].to[2], -1900, 1e-6);
-  std::ofstream(scratch_.path() / "top.csv") << "x [m], y [m], thickness [m]\n0, 0, 1\n";
+  std::ofstream(scratch_.path() / "top.csv") << "x [m], y [m], height [m]\n0, 0, 1\n";
   EXPECT_THAT(said(table), HasSubstr("/geometry/layers/1/top/csv: top.csv line 1: column "
-                                     "\"thickness\" says nothing of a horizon; head the table x "
+                                     "\"height\" says nothing of a horizon; head the table x "
                                      "[m], y [m], depth [m]"));
+}
+
+TEST_F(HorizonsScene, ATableOfThicknessesHangsFromTheOneAbove) {
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(scratch_.path() / name) << text;
+  };
+  write("top.csv",
+        "x [m], y [m], depth [m]\n-2000, -2000, 1900\n2000, -2000, 1900\n"
+        "-2000, 2000, 1900\n2000, 2000, 1900\n");
+  const std::string places[] = {"-2000, -2000, ", "2000, -2000, ", "-2000, 2000, ", "2000, 2000, "};
+  const auto thicknesses = [&](const std::string& last) {
+    write("base.csv", "x [m], y [m], thickness [m]\n" + places[0] + "80\n" + places[1] + "80\n" +
+                          places[2] + "80\n" + last);
+  };
+  const Changes tables = {{"/geometry/layers/1/top", R"({"csv": "top.csv"})"},
+                          {"/geometry/layers/2/top", R"({"csv": "base.csv"})"}};
+  thicknesses(places[3] + "80\n");
+  const Scene scene = read(tables);
+  EXPECT_NEAR(scene.box.regions[0].to[2], -1900, 1e-6);
+  EXPECT_NEAR(scene.box.regions[0].from[2], -1980, 1e-6);
+  const std::string at = "/geometry/layers/2/top/csv: base.csv";
+  thicknesses("");
+  EXPECT_THAT(said(tables), HasSubstr(at + " has 3 thicknesses, and the table of the layer above 4"
+                                           " points; give a thickness for each line"));
+  thicknesses("2000, 1999, 80\n");
+  EXPECT_THAT(said(tables),
+              HasSubstr(at + " line 5: x 2000, y 1999 m is not the place of the "
+                             "point in the table of the layer above, x 2000, y 2000"));
+  thicknesses(places[3] + "0\n");
+  EXPECT_THAT(said(tables), HasSubstr(at + " line 5: a thickness is not above 0"));
+  thicknesses(places[3] + "80\n");
+  EXPECT_THAT(said({tables[1]}),
+              HasSubstr(at + " has thicknesses, and the top of the layer above is no table"));
 }
 
 /// Growth is a factor from one cell to the next: 1 keeps their size.
