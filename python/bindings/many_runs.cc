@@ -8,7 +8,8 @@
 #include <optional>
 #include <thread>
 
-#include "simulator/common/near_miss.h"
+#include "python/bindings/many_checks.h"
+#include "simulator/common/errors.h"
 #include "simulator/result/result_fields.h"
 #include "simulator/simulation/inside.h"
 
@@ -23,15 +24,6 @@ std::string text_of(double value, const std::string& unit) {
   const int length = std::snprintf(text, sizeof text, "%.17g", value);
   std::string all(text, static_cast<std::size_t>(length));
   return unit.empty() ? all : all + " " + unit;
-}
-
-void require_history(const std::string& key) {
-  const FaultMetrics none;
-  std::vector<std::string> names;
-  for_each_field(none, [&](const Field& field, const auto&) { names.emplace_back(field.key); });
-  if (std::find(names.begin(), names.end(), key) == names.end())
-    throw InputError("histories", concat("there is no \"", key, "\" of faults and load steps"),
-                     suggest(key, names));
 }
 
 /// The cases of a request, handed out one by one to threads, and their numbers.
@@ -63,20 +55,17 @@ class Runs {
 
 Runs::Runs(const Simulation& simulation, const ManyRequest& request, StopToken stop,
            std::atomic<long>& done)
-    : request_(request), stop_(stop), done_(done) {
-  const Scene& scene = Inside::scene(simulation).scene;
-  std::vector<std::string> stages, faults;
-  for (const auto& stage : scene.stages) stages.push_back(stage.name);
-  for (const auto& fault : scene.faults) faults.push_back(fault.name);
-  for (const std::string& name : request.outputs) columns_.emplace_back(name, stages, faults);
-  for (const std::string& key : request.histories) require_history(key);
+    : request_(request),
+      stop_(stop),
+      done_(done),
+      columns_(checked_columns(Inside::scene(simulation), request)) {
   const auto n_outputs = static_cast<Eigen::Index>(columns_.size());
   // Memory that nobody has touched costs nothing: each case fills its own, so that a stop is heard
   // at once whatever the number of cases.
   results_.outputs.resize(request.n_cases, n_outputs);
   results_.outcomes.assign(static_cast<std::size_t>(request.n_cases), Outcome::failed);
   results_.n_steps = Inside::scene(simulation).plan.n_steps + 1;
-  results_.n_faults = static_cast<Eigen::Index>(faults.size());
+  results_.n_faults = static_cast<Eigen::Index>(Inside::scene(simulation).scene.faults.size());
   results_.histories.resize(
       results_.n_steps * results_.n_faults * static_cast<Eigen::Index>(request.histories.size()),
       request.n_cases);

@@ -73,6 +73,13 @@ void bind_fields(py::module_& core) {
           "0 = sticks, 1 = slips, 2 = is open (n_steps, n_nodes).");
 }
 
+/// Alone: of a short case all values take longer than the case.
+py::object whole_of(const CaseResult& result) {
+  CaseResult alone;
+  alone.whole = result.whole;
+  return to_python(result_to_json(alone)["whole"]);
+}
+
 std::vector<std::string> sentences(const CaseResult& result) {
   std::vector<std::string> all = {sliding_sentence(result)};
   for (const std::string& one : unresolved_sentences(result)) all.push_back(one);
@@ -99,6 +106,7 @@ void bind_result(py::module_& core) {
             return self->fields ? std::shared_ptr<KeptFields>(self, &*self->fields) : nullptr;
           })
       .def("value", [](const KeptResult& self) { return to_python(result_to_json(self.result)); })
+      .def("whole", [](const KeptResult& self) { return whole_of(self.result); })
       .def("sentences", [](const KeptResult& self) { return sentences(self.result); })
       .def("history", &KeptResult::history)
       .def("drawn", &KeptResult::drawn);

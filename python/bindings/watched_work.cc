@@ -1,10 +1,12 @@
 #include "python/bindings/watched_work.h"
 
 #include <chrono>
-#include <condition_variable>
 #include <exception>
 #include <optional>
 #include <thread>
+
+#include "python/bindings/lent_worker.h"
+#include "simulator/common/errors.h"
 
 namespace faultsim::python {
 
@@ -12,43 +14,11 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr std::chrono::milliseconds kBetweenLooks(10);
-
-/// A piece of work in its thread.
-class Worker {
- public:
-  explicit Worker(const std::function<void(StopToken)>& work)
-      : thread_([this, &work] {
-          try {
-            work(StopToken(stop_));
-          } catch (...) {
-            failure_ = std::current_exception();
-          }
-          const std::lock_guard lock(mutex_);
-          has_ended_ = true;
-          ended_.notify_one();
-        }) {}
-  ~Worker() { thread_.join(); }
-
-  bool ends_soon() {
-    std::unique_lock lock(mutex_);
-    return ended_.wait_for(lock, kBetweenLooks, [this] { return has_ended_; });
-  }
-  void stop() { stop_ = true; }
-  bool is_stopped() const { return stop_; }
-  const std::exception_ptr& failure() const { return failure_; }  ///< @pre it has ended.
-
- private:
-  std::atomic<bool> stop_ = false;
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool has_ended_ = false;
-  std::exception_ptr failure_;
-  std::thread thread_;  // last: it uses all of the above
-};
+/// The thread that ends Python; none while it runs.
+std::optional<unsigned long> ending_thread;
 
 /// Signals and callbacks, until one of them raises.
-void look_once(Worker& worker, const std::function<void()>& look,
+void look_once(LentWorker& worker, const std::function<void()>& look,
                std::optional<py::error_already_set>& raised) {
   if (worker.is_stopped()) return;
   try {
@@ -63,11 +33,13 @@ void look_once(Worker& worker, const std::function<void()>& look,
 }  // namespace
 
 void run_watched(const std::function<void(StopToken)>& work, const std::function<void()>& look) {
+  if (ending_thread && *ending_thread != PyThread_get_thread_ident())
+    throw Interrupted("Python ends: other threads than the one that ends it begin no work");
   std::optional<py::error_already_set> raised;
   std::exception_ptr failure;
   {
+    LentWorker worker(work);
     const py::gil_scoped_release released;
-    Worker worker(work);
     while (!worker.ends_soon()) {
       const py::gil_scoped_acquire held;
       look_once(worker, look, raised);
@@ -77,6 +49,17 @@ void run_watched(const std::function<void(StopToken)>& work, const std::function
   if (raised) throw std::move(*raised);
   if (failure) std::rethrow_exception(failure);
   if (look) look();
+}
+
+void end_watched_works() {
+  ending_thread = PyThread_get_thread_ident();
+  LentWorker::stop_all();
+  constexpr std::chrono::milliseconds kBetweenLooks(1);
+  // Not for ever: a callback may wait for what no longer comes.
+  for (int look = 0; look < 2000 && !LentWorker::are_all_idle(); ++look) {
+    const py::gil_scoped_release released;
+    std::this_thread::sleep_for(kBetweenLooks);
+  }
 }
 
 HeldAlone::HeldAlone(std::atomic<bool>& is_held, const char* what) : is_held_(is_held) {

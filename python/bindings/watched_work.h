@@ -10,14 +10,19 @@
 
 namespace faultsim::python {
 
-/// Runs work in a thread of its own, without Python's lock, while the calling thread looks for
-/// signals every 10 ms: what a handler raises (KeyboardInterrupt) asks the work to stop, and is
-/// raised here once it has ended. What the work throws is thrown here.
+/// Runs work in a thread of its own (LentWorker), without Python's lock, while the calling thread
+/// looks for signals every 10 ms: what a handler raises (KeyboardInterrupt) asks the work to stop,
+/// and is raised here once it has ended. What the work throws is thrown here.
 /// @param look  called with Python's lock after every look for signals, and once at the end of work
 ///              that did not fail; what it raises stops the work likewise.
 /// @pre the calling thread holds Python's lock.
 void run_watched(const std::function<void(StopToken)>& work,
                  const std::function<void()>& look = nullptr);
+
+/// For the end of Python, before its threads can no longer come back to it: works that other
+/// threads have begun are stopped and waited for, and from now on they begin none (Interrupted).
+/// @pre the calling thread holds Python's lock.
+void end_watched_works();
 
 /// Holds what one caller may use at a time, as long as it lives. A callback of its own finds it
 /// held too, which a mutex would not allow to be asked.

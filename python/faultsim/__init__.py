@@ -10,6 +10,9 @@
     runs = simulation.run_many(angles[:, None], parameters=["friction_angle"], threads=2)
     runs["slides"].mean()
 
+Scene is what is modelled, Simulation holds one and runs it, Result and Runs are what became of a case and of many;
+Campaign reads a store of faultsweep. What is wrong is an InputError, with all problems.
+
 All numbers are in SI (faultsim.units); the equations stand in docs/model.md, the words in docs/words.md.
 """
 

@@ -50,4 +50,4 @@ def as_record(value: Any) -> Any:
 
 def refuse_pickle(what: str, cure: str) -> Any:
     """Raises TypeError, for ``__reduce__``: why it cannot be pickled, and what to do instead."""
-    raise TypeError(f"{what} cannot be pickled, as its memory belongs to this process; {cure}")
+    raise TypeError(f"{what} cannot be pickled or copied, as its memory belongs to this process; {cure}")

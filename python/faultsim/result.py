@@ -41,6 +41,11 @@ class Result(Record):
         ``unstable``, ``interrupted``, ``failed``."""
         return self._kept.outcome
 
+    @cached_property
+    def whole(self) -> Record:
+        """Measures over the whole case, also by fault; quicker to get than all values are: ``result.whole.chi_bar``."""
+        return Record(self._kept.whole())
+
     @property
     def geometry(self) -> _core.Geometry:
         """Where the nodes of its faults are."""

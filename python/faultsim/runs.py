@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from .given import names_given
+from .scene import value_as_text
 
 if TYPE_CHECKING:
     import pandas  # type: ignore[import]
@@ -67,9 +69,12 @@ class Runs(Mapping[str, Numbers]):
 def columns_of(cases: Any, parameters: Sequence[str] | None, units: Mapping[str, str]) -> tuple[list[Column], int]:
     """Rows of cases as columns, each checked. Raises ValueError where shapes do not fit."""
     if hasattr(cases, "columns") and hasattr(cases, "iloc"):  # a DataFrame, without needing pandas
+        twice = [name for name, again in zip(cases.columns, cases.columns.duplicated()) if again]
+        if twice:
+            raise ValueError(f"columns are there twice: {', '.join(map(repr, twice))}")
         cases = {name: cases[name].to_numpy() for name in cases.columns}
     if isinstance(cases, Mapping):
-        names = list(parameters) if parameters is not None else [str(name) for name in cases]
+        names = names_given(list(cases) if parameters is None else parameters, "columns")
         missing = [name for name in names if name not in cases]
         if missing:
             raise ValueError(f"there is no column {', '.join(map(repr, missing))}")
@@ -77,8 +82,10 @@ def columns_of(cases: Any, parameters: Sequence[str] | None, units: Mapping[str,
     values = np.asarray(cases)
     if parameters is None:
         raise ValueError("an array does not say what its columns are: give parameters=[...]")
+    parameters = names_given(parameters, "parameters")
     if values.ndim != 2 or values.shape[1] != len(parameters):
-        raise ValueError(f"{len(parameters)} parameters take an array n_cases x {len(parameters)}, not {values.shape}")
+        hint = "; write values[:, None]" if values.ndim == 1 and len(parameters) == 1 else ""
+        raise ValueError(f"an array for {parameters} is n_cases x {len(parameters)}, and this is {values.shape}{hint}")
     columns = [_column(name, values[:, i], units) for i, name in enumerate(parameters)]
     return columns, values.shape[0]
 
@@ -95,10 +102,11 @@ def _column(name: str, values: npt.NDArray[Any], units: Mapping[str, str]) -> Co
         raise ValueError(f"{name!r} has {values.ndim} dimensions; a number or text per case is wanted")
     if values.dtype.kind in "fiu":
         return name, units.get(name, ""), np.ascontiguousarray(values, dtype=np.float64)
-    return name, "", [_text(value, units.get(name, "")) for value in values.tolist()]
+    return name, "", [_text(name, i, value, units.get(name, "")) for i, value in enumerate(values.tolist())]
 
 
-def _text(value: Any, unit: str) -> str:
-    from .scene import value_as_text
-
-    return value_as_text(value, unit)
+def _text(name: str, case: int, value: Any, unit: str) -> str:
+    try:
+        return value_as_text(value, unit)
+    except TypeError as error:
+        raise TypeError(f"{name}, case {case}, counted from 0: {error}") from None

@@ -7,6 +7,8 @@ import os
 from collections.abc import Mapping
 from typing import Any, NamedTuple, Union
 
+import numpy as np
+
 from . import _core
 from .records import Record
 
@@ -50,7 +52,9 @@ class Scene:
     """
 
     def __init__(self, document: Mapping[str, Any], source: str = "scene") -> None:
-        self._document = _core.SceneDocument.from_text(json.dumps(document), source)
+        if not isinstance(document, Mapping):
+            raise TypeError(f"{document!r} is no document; Scene takes a dict, Scene.from_file the name of a file")
+        self._document = _core.SceneDocument.from_text(json.dumps(document, default=_plain), source)
 
     @classmethod
     def _of(cls, document: _core.SceneDocument) -> Scene:
@@ -64,14 +68,14 @@ class Scene:
         return cls._of(_core.SceneDocument.from_file(os.fspath(file)))
 
     @classmethod
-    def field(cls, **changes: Value) -> Scene:
-        """The field of ``faultsim init field``, with changes: ``Scene.field(tier="screening", offset="120 m")``."""
-        return cls._of(_core.SceneDocument.starter("field")).set(**changes)
+    def field(cls, values: Mapping[str, Value] | None = None, /, **changes: Value) -> Scene:
+        """The field of ``faultsim init field``, with changes as of ``set``: ``Scene.field(tier="screening", offset="120 m")``."""
+        return cls._of(_core.SceneDocument.starter("field")).set(values, **changes)
 
     @classmethod
-    def box(cls, **changes: Value) -> Scene:
-        """The box of ``faultsim init box``, with changes."""
-        return cls._of(_core.SceneDocument.starter("box")).set(**changes)
+    def box(cls, values: Mapping[str, Value] | None = None, /, **changes: Value) -> Scene:
+        """The box of ``faultsim init box``, with changes as of ``set``."""
+        return cls._of(_core.SceneDocument.starter("box")).set(values, **changes)
 
     def set(self, values: Mapping[str, Value] | None = None, /, **changes: Value) -> Scene:
         """Puts values in place of those that it has, and returns itself.
@@ -134,23 +138,46 @@ def units_of(scene: Scene) -> dict[str, str]:
 
 
 def value_as_text(value: Value, unit: str) -> str:
-    """A value as ``faultsim run --set`` takes it. 17 digits read back as the same bits."""
+    """A value as ``faultsim run --set`` takes it. 17 digits read back as the same bits. Raises TypeError for what is none."""
+    if isinstance(value, (np.generic, np.ndarray)) and value.size == 1:
+        value = value.item()
     if isinstance(value, str):
         return value
     if isinstance(value, bool) or value is None or isinstance(value, (Mapping, list)):
-        return json.dumps(value)
+        return json.dumps(value, default=_plain)
     if isinstance(value, int) and not unit:
         return str(value)
-    text = format(float(value), ".17g")
+    try:
+        text = format(float(value), ".17g")
+    except (TypeError, ValueError):
+        raise TypeError(f"{value!r} is no value; write a number in SI, or a text with its unit"
+                        f"{' (many cases: run_many)' if isinstance(value, np.ndarray) else ''}") from None
     return f"{text} {unit}" if unit else text
 
 
 def changes_as_text(
     scene: Scene, values: Mapping[str, Value] | None, changes: Mapping[str, Value], units: dict[str, str] | None = None
 ) -> list[tuple[str, str]]:
-    """Both as (parameter, text)."""
-    everything = {**(values or {}), **changes}
+    """Both as (parameter, text). Raises TypeError with all values that are none."""
+    if values is not None and not hasattr(values, "keys"):  # a row of a DataFrame has keys
+        raise TypeError(f"{values!r} does not say which values it is: give a dict by parameter, or name=value")
+    everything = {**(values if values is not None else {}), **changes}
     if units is None:
         has_numbers = any(not isinstance(value, str) for value in everything.values())
         units = units_of(scene) if has_numbers else {}
-    return [(name, value_as_text(value, units.get(name, ""))) for name, value in everything.items()]
+    texts, wrong = [], []
+    for name, value in everything.items():
+        try:
+            texts.append((name, value_as_text(value, units.get(name, ""))))
+        except TypeError as error:
+            wrong.append(f"{name}: {error}")
+    if wrong:
+        raise TypeError("\n".join(wrong))
+    return texts
+
+
+def _plain(value: Any) -> Any:
+    """numpy's values as JSON has them."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"{value!r} is no value that JSON has")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Union
 import numpy.typing as npt
 
 from . import _core
+from .given import names_given, threads_given, told_given
 from .records import refuse_pickle
 from .result import Result
 from .runs import Runs, columns_of
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
 Cases = Union["pandas.DataFrame", npt.ArrayLike, Mapping[str, Sequence[Any]]]
 #: Told how far work is: a share from 0 to 1, and what is being done.
 Monitor = Callable[[float, str], object]
+_SHARE_AND_WHAT = "a share and what is done"
 
 
 class Simulation:
@@ -38,6 +40,8 @@ class Simulation:
 
         cache: a folder where operators are kept as files, for other runs and processes; None = nowhere.
         """
+        if not isinstance(scene, Scene):
+            raise TypeError(f"{scene!r} is no Scene; make one with Scene(dict), Scene.from_file(name) or Scene.field()")
         self._scene = scene.copy()
         self._held = _core.HeldSimulation(self._scene._document, os.fspath(cache) if cache is not None else "")
         self._units = units_of(self._scene)
@@ -81,7 +85,7 @@ class Simulation:
 
         threads: of the factorisation. No bit of a result depends on them.
         """
-        return self._held.prepare(monitor, threads)
+        return self._held.prepare(told_given(monitor, "monitor", _SHARE_AND_WHAT), threads_given(threads))
 
     def run(
         self,
@@ -98,7 +102,8 @@ class Simulation:
         values: changes by JSON Pointer, or by short name where one is called as an argument here.
         fields: keep the fields of the faults at each load step.
         """
-        return Result(self._held.run(self._texts(values, changes), fields, monitor, threads))
+        told = told_given(monitor, "monitor", _SHARE_AND_WHAT)
+        return Result(self._held.run(self._texts(values, changes), fields, told, threads_given(threads)))
 
     def run_many(
         self,
@@ -124,16 +129,19 @@ class Simulation:
         on_error: "raise" = values that are refused end the work; "keep" = such a case has no numbers, and
             ``Runs.refused`` says why.
 
-        Fields are not kept. Ctrl-C ends it within 50 ms.
+        Raises InputError with all that is wrong before the first case: names that are none, numbers that are not finite
+        (unless such cases are kept). Fields are not kept. Ctrl-C ends it within 50 ms.
         """
         if on_error not in ("raise", "keep"):
             raise ValueError(f"on_error is {on_error!r}; write 'raise' or 'keep'")
         columns, n_cases = columns_of(cases, parameters, self._units)
-        names = list(outputs) if outputs is not None else _core.output_names()
+        names = names_given(outputs, "outputs") if outputs is not None else _core.output_names()
+        kept = names_given(histories, "histories")
+        told = told_given(progress, "progress", "how many are done and of how many")
         given = _core.run_many(
-            self._held, columns, n_cases, names, list(histories), on_error == "keep", threads, progress
+            self._held, columns, n_cases, names, kept, on_error == "keep", threads_given(threads), told
         )
-        return Runs(names, list(histories), self._held.fault_names(), given, {c[0]: c[2] for c in columns})
+        return Runs(names, kept, self._held.fault_names(), given, {c[0]: c[2] for c in columns})
 
     @property
     def geometry(self) -> _core.Geometry:
@@ -154,7 +162,8 @@ class Simulation:
 
         It takes a factorisation, unless the simulation has a cache with it.
         """
-        return _core.influence_of(self._held, list(compartments), monitor, threads)
+        told = told_given(monitor, "monitor", _SHARE_AND_WHAT)
+        return _core.influence_of(self._held, names_given(compartments, "compartments"), told, threads_given(threads))
 
     def _texts(self, values: Mapping[str, Value] | None, changes: Mapping[str, Value]) -> list[tuple[str, str]]:
         return changes_as_text(self._scene, values, changes, self._units)
@@ -163,6 +172,6 @@ class Simulation:
         return f"<faultsim.Simulation of {self._scene!r}>"
 
     def __reduce__(self) -> NoReturn:
-        refuse_pickle("a simulation", "pickle its scene, and make a simulation of it in the other process")
+        refuse_pickle("a simulation", "twin() makes another one here; for another process pickle its scene")
         raise AssertionError
 

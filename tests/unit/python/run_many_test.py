@@ -90,6 +90,10 @@ class RunManyTest(unittest.TestCase):
         frame["friction_angle"] = [f"{angle:.17g} rad" for angle in frame["friction_angle"]]
         runs = self.simulation.run_many(frame)
         np.testing.assert_array_equal(runs.outputs, self.runs.outputs)
+        with self.assertRaisesRegex(ValueError, "columns are there twice: 'cohesion'"):
+            self.simulation.run_many(pandas.DataFrame(self.cases, columns=["cohesion", "friction_angle", "cohesion"]))
+        row = frame.iloc[0]
+        self.assertEqual(self.simulation.run(row).whole.chi_bar, self.runs["chi_bar"][0])
         table = runs.to_pandas()
         self.assertEqual(list(table.columns), [*NAMES, "outcome", *faultsim.outputs()])
         np.testing.assert_array_equal(table["chi_bar"], self.runs["chi_bar"])
@@ -106,13 +110,42 @@ class RunManyTest(unittest.TestCase):
             self.simulation.run_many(self.cases, parameters=NAMES, on_error="ignore")
         self.assertEqual(self.simulation.run_many(self.cases[:0], parameters=NAMES).outputs.shape[0], 0)
 
+    def test_all_that_is_wrong_is_said_before_the_first_case(self):
+        cases = self.cases.copy()
+        cases[[5, 7], 2] = np.nan, np.inf
+        with self.assertRaises(faultsim.InputError) as raised:
+            self.simulation.run_many(cases, parameters=["frction_angle", "friction_angle", "friction_angle"],
+                                     outputs=["chi_bra", "slides", "F9.chi_bar"], histories=["chi_barr"])
+        said = str(raised.exception)
+        self.assertEqual(len(raised.exception.problems), 6, said)
+        for part in ('did you mean "friction_angle"', "given twice", "in 2 of 40 cases, first in case 5", "chi_bra", "F9", "chi_barr"):
+            self.assertIn(part, said)
+        with self.assertRaises(faultsim.InputError):  # also of no case
+            self.simulation.run_many(cases[:0], parameters=["nothing", *NAMES[1:]])
+
+    def test_lists_that_are_none(self):
+        run = self.simulation.run_many
+        for wrong in ({"parameters": "cohesion"}, {"parameters": NAMES, "outputs": "chi_bar"}, {"parameters": NAMES, "histories": "chi_bar"}):
+            with self.assertRaisesRegex(TypeError, "is a list of names"):
+                run(self.cases, **wrong)
+        with self.assertRaisesRegex(TypeError, "are names, and 0 is none"):
+            run({0: [0.4]})
+        with self.assertRaisesRegex(ValueError, r"values\[:, None\]"):
+            run(self.cases[:, 0], parameters=NAMES[:1])
+        with self.assertRaisesRegex(TypeError, "friction_angle, case 1, counted from 0"):
+            run({"friction_angle": np.array([0.4, object()])})
+        with self.assertRaisesRegex(ValueError, "threads is 0"):
+            run(self.cases, parameters=NAMES, threads=0)
+        with self.assertRaisesRegex(TypeError, "progress is 3"):
+            run(self.cases, parameters=NAMES, progress=3)
+
     def test_values_that_are_refused(self):
         cases = self.cases.copy()
         cases[3, 0] = 100 * deg
-        cases[5, 1] = np.nan
         with self.assertRaises(faultsim.InputError) as raised:
             self.simulation.run_many(cases, parameters=NAMES)
         self.assertIn("running case 3 of 40", str(raised.exception))
+        cases[5, 1] = np.nan
         runs = self.simulation.run_many(cases, parameters=NAMES, on_error="keep", threads=2)
         self.assertEqual(sorted(runs.refused), [3, 5])
         self.assertEqual(runs.outcomes[3], "refused")

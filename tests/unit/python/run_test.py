@@ -1,5 +1,6 @@
 """Runs: arrays that are seen and not copied, lifetimes, threads, histories, operator."""
 
+import copy
 import gc
 import pickle
 import threading
@@ -22,6 +23,7 @@ class RunTest(unittest.TestCase):
         result = self.result
         self.assertEqual(result.outcome, "converged")
         self.assertEqual(result.whole.chi_bar, result.to_dict()["whole"]["chi_bar"])
+        self.assertEqual(dict(result.whole), result.to_dict()["whole"])
         self.assertEqual(result["title"], result.title)
         self.assertEqual(len(result.times), len(result.steps))
         np.testing.assert_array_equal(result.history("chi_bar"),
@@ -120,6 +122,31 @@ class RunTest(unittest.TestCase):
         self.assertEqual(len(raised.exception.problems), 2)
         self.assertEqual(self.simulation.identity, before)
 
+    def test_what_is_no_value_is_said_by_name(self):
+        run = self.simulation.run
+        with self.assertRaisesRegex(TypeError, r"(?s)friction_angle: .*run_many.*cohesion: .* is no value"):
+            run(friction_angle=np.array([0.4, 0.5]), cohesion=object())
+        for wrong in ("friction_angle", [0.4]):
+            with self.assertRaisesRegex(TypeError, "give a dict by parameter"):
+                run(wrong)
+        one = bits(run(friction_angle=0.4))
+        for same in (np.float64(0.4), np.array(0.4), np.array([0.4])):  # the last is what scipy's optimisers give
+            self.assertEqual(bits(run(friction_angle=same)), one)
+        self.assertEqual(bits(run({"/numerics/follow_events": np.bool_(False)})), bits(run({"/numerics/follow_events": False})))
+
+    def test_threads_and_callbacks_that_are_none(self):
+        for work in (self.simulation.run, self.simulation.prepare, self.simulation.influence):
+            for wrong in (0, -1):
+                with self.assertRaisesRegex(ValueError, "whole number from 1"):
+                    work(threads=wrong)
+            for wrong in (1.5, "2", None):
+                with self.assertRaisesRegex(TypeError, "whole number from 1"):
+                    work(threads=wrong)
+            with self.assertRaisesRegex(TypeError, "give a function of a share"):
+                work(monitor=3)
+        with self.assertRaisesRegex(TypeError, "compartments is a list"):
+            self.simulation.influence("reservoir")
+
     def test_another_operator_where_one_is_needed(self):
         simulation = self.simulation.twin()
         self.assertFalse(simulation.needs_operator)
@@ -192,6 +219,8 @@ class RunTest(unittest.TestCase):
                 pickle.dumps(what)
             self.assertIn("cannot be pickled", str(raised.exception))
         pickle.dumps(self.result.to_dict())
+        with self.assertRaisesRegex(TypeError, r"twin\(\)"):
+            copy.copy(self.simulation)
 
     def test_charts(self):
         for chart in faultsim.charts():

@@ -86,6 +86,17 @@ class SceneTest(unittest.TestCase):
             faultsim.Scene({"title": "no geometry"}).check()
         with self.assertRaises(TypeError):
             faultsim.Scene({"title": object()})
+        for wrong in ("field.json", [1]):
+            with self.assertRaisesRegex(TypeError, "Scene.from_file"):
+                faultsim.Scene(wrong)
+            with self.assertRaisesRegex(TypeError, "is no Scene"):
+                faultsim.Simulation(wrong)
+
+    def test_numpy_in_documents(self):
+        document = faultsim.Scene.field().to_dict()
+        document["numerics"] = {"follow_events": np.bool_(False)}
+        self.assertIs(faultsim.Scene(document).to_dict()["numerics"]["follow_events"], False)
+        self.assertEqual(faultsim.Scene.field({"/numerics/plane_strain": "on"}, tier="screening").identity, plane_scene().identity)
 
     def test_plan(self):
         plan = plane_scene().plan()
