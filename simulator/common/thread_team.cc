@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -95,8 +96,12 @@ ThreadTeam::~ThreadTeam() {
 
 void ThreadTeam::for_each(int n, const std::function<void(int)>& task) {
   Shared& shared = *shared_;
-  while (std::ssize(shared.others) < n_threads_ - 1)
-    shared.others.emplace_back([&shared] { shared.live(); });
+  try {
+    while (std::ssize(shared.others) < n_threads_ - 1)
+      shared.others.emplace_back([&shared] { shared.live(); });
+  } catch (const std::system_error&) {  // a limit on processes: those that there are will do
+    n_threads_ = 1 + static_cast<int>(shared.others.size());
+  }
   {
     const std::lock_guard lock(shared.mutex);
     shared.task = &task;

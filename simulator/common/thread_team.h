@@ -18,6 +18,7 @@ class ThreadTeam {
   explicit ThreadTeam(int n_threads);
   ~ThreadTeam();  ///< ends the others.
 
+  /// Fewer than asked for since a limit on processes left no room for one.
   int n_threads() const { return n_threads_; }
   /// Calls task(0) … task(n − 1), each once, by the caller and by whichever others come in time.
   /// They are begun in this order, so a task may wait for what those before it have yet to do. The

@@ -88,7 +88,7 @@ struct CondensedBulk::Impl {
 
   void factorise(const RunContext& context);
   void make_loads(const RunContext& context);
-  Eigen::MatrixXd condensed_matrix() const;
+  Eigen::MatrixXd condensed_matrix(int n_threads) const;
   void set_locked(FaultOperator& op, StopToken stop);
   void observe(FaultOperator& op, StopToken stop);
   /// q: u = q·x of a component of the displacement of an observation point (n_unknowns); zero where
@@ -137,8 +137,8 @@ void CondensedBulk::Impl::make_loads(const RunContext& context) {
   }
 }
 
-Eigen::MatrixXd CondensedBulk::Impl::condensed_matrix() const {
-  Eigen::MatrixXd h = lower_times_transpose(factor->trailing_factor());
+Eigen::MatrixXd CondensedBulk::Impl::condensed_matrix(int n_threads) const {
+  Eigen::MatrixXd h = lower_times_transpose(factor->trailing_factor(), n_threads);
   h.diagonal() -= springs;
   for (Eigen::Index i = 0; i < h.cols(); ++i) {
     // Zero up to rounding only where a block that nothing else holds moves as a whole.
@@ -217,7 +217,7 @@ FaultOperator CondensedBulk::condense(const RunContext& context) {
   Stopwatch stopwatch;
   FaultOperator op;
   op.geometry = self.geometry;
-  op.compliance = std::make_shared<DenseCompliance>(self.condensed_matrix());
+  op.compliance = std::make_shared<DenseCompliance>(self.condensed_matrix(context.n_threads));
   self.set_locked(op, context.stop);
   self.observe(op, context.stop);
   op.n_unknowns = self.dofs.n_unknowns();

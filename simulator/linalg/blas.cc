@@ -4,10 +4,15 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <sstream>
 #include <string>
 
 #include "simulator/common/errors.h"
+#include "simulator/common/large_pages.h"
+#include "simulator/common/process_memory.h"
+#include "simulator/common/thread_team.h"
 
 namespace faultsim {
 
@@ -46,17 +51,28 @@ void set_blas_threads(int n_threads) {
   if (openblas_get_num_threads() != n_threads) openblas_set_num_threads(n_threads);
 }
 
-Eigen::MatrixXd lower_times_transpose(const Eigen::MatrixXd& lower) {
+int threads_with_blas_room(int wanted) {
+  const std::optional<double> left = left_in_limits();
+  if (wanted == 1 || !left) return wanted;
+  const double more = std::floor((*left - kLeastWorkingBytes) / kBlasBufferBytes);
+  return static_cast<int>(std::clamp(1 + more, 1.0, static_cast<double>(wanted)));
+}
+
+Eigen::MatrixXd lower_times_transpose(const Eigen::MatrixXd& lower, int n_threads) {
   FAULTSIM_DEMAND(lower.rows() == lower.cols(), lower.rows(), " x ", lower.cols());
   constexpr int kBlock = 128;  // wide enough for dgemm's speed, narrow enough to skip most zeros
-  const int n = static_cast<int>(lower.rows());
+  const int n = static_cast<int>(lower.rows()), n_blocks = (n + kBlock - 1) / kBlock;
   Eigen::MatrixXd product(n, n);
-  for (int j = 0; j < n; j += kBlock) {
-    const int width = std::min(kBlock, n - j);
+  ask_for_large_pages(product.data(), product.size() * sizeof(double));
+  const auto make_block = [&](int block) {
+    const int j = block * kBlock, width = std::min(kBlock, n - j);
     cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n - j, width, j + width, 1.0,
                 lower.data() + j, n, lower.data() + j, n, 0.0,
                 product.data() + j + static_cast<std::ptrdiff_t>(j) * n, n);
-  }
+  };
+  constexpr int kBlocksPerThread = 4;  // fewer are made before a thread has started
+  const int n_useful = std::clamp(n_blocks / kBlocksPerThread, 1, n_threads);
+  ThreadTeam(threads_with_blas_room(n_useful)).for_each(n_blocks, make_block);
   product.triangularView<Eigen::StrictlyUpper>() = product.transpose();
   return product;
 }

@@ -7,6 +7,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
+#include "simulator/common/large_pages.h"
 #include "simulator/common/stopwatch.h"
 #include "simulator/linalg/ordering.h"
 #include "simulator/linalg/supernodal_factor.h"
@@ -237,7 +238,9 @@ const FactorStatistics& TrailingCholesky::statistics() const { return impl_->sta
 Eigen::MatrixXd TrailingCholesky::trailing_factor() const {
   FAULTSIM_DEMAND(impl_->failed < 0, "no factor");
   const Index n_bulk = impl_->n_bulk;
-  Eigen::MatrixXd l = Eigen::MatrixXd::Zero(impl_->n - n_bulk, impl_->n - n_bulk);
+  Eigen::MatrixXd l(impl_->n - n_bulk, impl_->n - n_bulk);
+  ask_for_large_pages(l.data(), l.size() * sizeof(double));
+  l.setZero();
   impl_->for_each_column(n_bulk,
                          [&](Index column, const Index* rows, const double* values, Index count) {
                            for (Index i = 0; i < count; ++i)

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <system_error>
 #include <thread>
 #include <vector>
 
-#include "simulator/common/process_memory.h"
+#include "simulator/common/large_pages.h"
+#include "simulator/linalg/blas.h"
 #include "simulator/linalg/lapack.h"
 #include "simulator/linalg/panels.h"
 
@@ -187,14 +187,6 @@ int useful_threads(const PanelSchedule& schedule, int wanted) {
   return static_cast<int>(std::clamp(total / kFlopsPerThread, 1.0, static_cast<double>(wanted)));
 }
 
-/// As many as find room for a work buffer of the BLAS under the limits of the process.
-int threads_with_room(int wanted) {
-  const std::optional<double> left = left_in_limits();
-  if (wanted == 1 || !left) return wanted;
-  const double more = std::floor((*left - kLeastWorkingBytes) / kBlasBufferBytes);
-  return static_cast<int>(std::clamp(1 + more, 1.0, static_cast<double>(wanted)));
-}
-
 }  // namespace
 
 Supernodes supernodes_of(const cholmod_factor& factor) {
@@ -211,10 +203,11 @@ FactorOutcome factorise_supernodes(const cholmod_sparse& lower, cholmod_factor* 
                                    cholmod_common* common, const FactorRun& run) {
   cholmod_l_change_factor(CHOLMOD_REAL, true, true, true, true, factor, common);
   if (common->status != CHOLMOD_OK) return {};  // told by the caller, who knows what for
+  ask_for_large_pages(factor->x, factor->xsize * sizeof(double));
   const PanelSchedule schedule(supernodes_of(*factor));
   const int wanted = useful_threads(schedule, run.n_threads);
   Shared shared(lower, *factor, schedule, schedule.tasks(wanted));
-  std::vector<PanelWorker> workers(threads_with_room(wanted), PanelWorker(shared));
+  std::vector<PanelWorker> workers(threads_with_blas_room(wanted), PanelWorker(shared));
   {
     std::vector<std::jthread> threads;
     try {

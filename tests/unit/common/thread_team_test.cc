@@ -1,12 +1,16 @@
 #include "simulator/common/thread_team.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "simulator/common/process_memory.h"
 
 namespace faultsim {
 namespace {
@@ -35,6 +39,23 @@ TEST(ThreadTeam, IsSeveralThreadsAtOnce) {
   });
   EXPECT_EQ(team.n_taken_by_others(), kThreads - 1);
 }
+
+#ifndef __SANITIZE_ADDRESS__  // it maps memory of its own
+/// Where no stack finds room but those that ended threads have left.
+void work_within_the_memory_there_is() {
+  ThreadTeam team(64);
+  const rlim_t used = static_cast<rlim_t>(process_memory().address_space) + (1 << 20);
+  const rlimit limit = {used, used};
+  setrlimit(RLIMIT_AS, &limit);
+  std::atomic<int> n_done = 0;
+  team.for_each(100, [&](int) { ++n_done; });
+  std::_Exit(n_done == 100 && team.n_threads() < 64 ? 0 : 1);
+}
+
+TEST(ThreadTeam, DoesWithoutThreadsThatCannotBeStarted) {
+  EXPECT_EXIT(work_within_the_memory_there_is(), testing::ExitedWithCode(0), "");
+}
+#endif
 
 TEST(ThreadTeam, LetsATaskWaitForThoseBeforeIt) {
   ThreadTeam team(3);

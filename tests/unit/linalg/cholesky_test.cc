@@ -224,6 +224,15 @@ TEST(Blas, LowerTimesTransposeAgreesWithEigenAcrossBlocks) {
   }
 }
 
+TEST(Blas, LowerTimesTransposeHasTheSameBitsByEveryNumberOfThreads) {
+  for (int n : {5, 1500}) {
+    const Eigen::MatrixXd l = Eigen::MatrixXd::Random(n, n).triangularView<Eigen::Lower>();
+    const Eigen::MatrixXd product = lower_times_transpose(l);
+    EXPECT_EQ(lower_times_transpose(l, 2), product);
+    EXPECT_EQ(lower_times_transpose(l, 5), product);
+  }
+}
+
 /// Loads of a few entries near each point of the lattice, on trailing unknowns too.
 std::vector<SparseLoad> sparse_loads(int n_unknowns, int n_loads) {
   std::mt19937 random(3);
