@@ -6,7 +6,7 @@ namespace faultsim {
 namespace {
 
 SparseMatrix tied(const SaddlePoint& j, const Eigen::VectorXd& springs) {
-  return j.coupling * springs.asDiagonal() * SparseMatrix(j.constraint.transpose());
+  return j.constraint * springs.asDiagonal() * SparseMatrix(j.constraint.transpose());
 }
 
 }  // namespace

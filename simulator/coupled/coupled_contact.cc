@@ -56,7 +56,7 @@ CoupledContact::CoupledContact(const TwoSidedBulk& bulk, const ContactLaws& laws
     : bulk_(bulk),
       options_(options),
       all_held_(make_saddle_point(bulk)),
-      linear_(options.solver),
+      linear_(options.solver, options.stop),
       held_(bulk.ranks()) {
   if (runs_on_ranks(options.solver)) bulk.engine();  // before anything is multiplied
   const Eigen::VectorXd diagonal = bulk.diagonal();
@@ -253,8 +253,6 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, double level, double 
                              " iterations, ", at.n_changed, " states in the last");
       return;
     }
-    if (bulk_.ranks().largest(options_.stop.requested() ? 1 : 0) > 0)  // all or none
-      throw Interrupted("stopped while solving a linear step of the coupled path");
     const double change = improve(force, before, forcing, at, report);
     const double tolerance =
         options_.traction_tolerance * std::max(level, at.traction.lpNorm<Eigen::Infinity>());

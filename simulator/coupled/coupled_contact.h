@@ -18,7 +18,7 @@ struct CoupledContactOptions {
   /// Of a linear step, relative to its right-hand side: the loosest (ForcingTerm).
   double krylov_tolerance = 1e-3;
   int max_newton_iterations = 60;
-  StopToken stop = {};  ///< asked before each linear step: Interrupted.
+  StopToken stop = {};  ///< asked before each iteration of GMRES: Interrupted.
 };
 
 /// What drives a load step; both count from the start of the history.

@@ -44,7 +44,7 @@ struct ScaledSystem {
     const Eigen::VectorXd r_u = r.head(n_u), r_l = r.tail(n_l) / scale;
     Eigen::VectorXd u, lambda, correction;
     if (!schur) {
-      leading(r_u + j.coupling * springs.cwiseProduct(r_l), u);
+      leading(r_u + j.constraint * springs.cwiseProduct(r_l), u);
       lambda = springs.cwiseProduct(j.constraint.transpose() * u - r_l);
     } else if (form == BlockForm::full) {
       leading(r_u, u);
@@ -169,7 +169,7 @@ double CoupledSolver::multiplier_scale() const { return impl_->system.scale; }
 
 CoupledReport CoupledSolver::solve(const Eigen::VectorXd& f, const Eigen::VectorXd& g,
                                    double tolerance, int max_iterations, Eigen::VectorXd& u,
-                                   Eigen::VectorXd& lambda) {
+                                   Eigen::VectorXd& lambda, StopToken stop) {
   const ScaledSystem& system = impl_->system;
   const SaddlePoint& j = *system.jacobian;
   const int n_u = j.n_displacements(), n_l = j.n_multipliers();
@@ -181,7 +181,11 @@ CoupledReport CoupledSolver::solve(const Eigen::VectorXd& f, const Eigen::Vector
   const GmresReport done =
       gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.multiply(v, w); },
             [&](const Eigen::VectorXd& v, Eigen::VectorXd& w) { system.precondition(v, w); }, b,
-            tolerance, max_iterations, x, sum_over(j.ranks()));
+            tolerance, max_iterations, x, sum_over(j.ranks()),
+            [&] {
+              if (j.ranks().largest(stop.requested() ? 1 : 0) > 0)  // all or none
+                throw Interrupted("stopped while solving a linear step of the coupled path");
+            });
   u = x.head(n_u);
   lambda = system.scale * x.tail(n_l);
   return {done.converged, done.residuals, processor_seconds() - start};

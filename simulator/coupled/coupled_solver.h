@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/common/run_context.h"
 #include "simulator/common/words.h"
 #include "simulator/coupled/leading_block.h"
 #include "simulator/coupled/schur.h"
@@ -68,8 +69,10 @@ class CoupledSolver {
   CoupledSolver& operator=(const CoupledSolver&) = delete;
 
   /// @param f  n_u, N.  @param g  n_λ, m3: wanted Cᵀu = A g.
+  /// @param stop  asked before each iteration: Interrupted, on all ranks where one is asked.
   CoupledReport solve(const Eigen::VectorXd& f, const Eigen::VectorXd& g, double tolerance,
-                      int max_iterations, Eigen::VectorXd& u, Eigen::VectorXd& lambda);
+                      int max_iterations, Eigen::VectorXd& u, Eigen::VectorXd& lambda,
+                      StopToken stop = {});
   /// Takes another linearisation on the same bulk, by the preconditioner that is there: only its
   /// springs follow, coarser levels stay. @pre runs_on_ranks(); `j` is kept by reference.
   void relinearise(const SaddlePoint& j);

@@ -31,12 +31,12 @@ void LinearSteps::set_up(Solved& solved) {
 void LinearSteps::solve_to(const Eigen::VectorXd& f, const Eigen::VectorXd& g, Eigen::VectorXd& u,
                            Eigen::VectorXd& lambda, Solved& solved) {
   CoupledReport& report = solved.report;
-  report = solver_->solve(f, g, solved.tolerance, choice_.max_iterations, u, lambda);
+  report = solver_->solve(f, g, solved.tolerance, choice_.max_iterations, u, lambda, stop_);
   if (!report.converged && !is_new_) {
     const double seconds = report.seconds;
     is_new_ = true;
     set_up(solved);
-    report = solver_->solve(f, g, solved.tolerance, choice_.max_iterations, u, lambda);
+    report = solver_->solve(f, g, solved.tolerance, choice_.max_iterations, u, lambda, stop_);
     report.seconds += seconds;
   }
   const double decades = -std::log10(solved.tolerance);

@@ -12,7 +12,9 @@ namespace faultsim {
 /// first have added up to what setting it up costs. Counted, not timed: same input, same bits.
 class LinearSteps {
  public:
-  explicit LinearSteps(const SolverChoice& choice) : choice_(choice) {}
+  /// @param stop  as CoupledSolver::solve() asks it.
+  explicit LinearSteps(const SolverChoice& choice, StopToken stop = {})
+      : choice_(choice), stop_(stop) {}
 
   struct Solved {
     CoupledReport report;
@@ -38,6 +40,7 @@ class LinearSteps {
                 Eigen::VectorXd& lambda, Solved& solved);
 
   SolverChoice choice_;
+  StopToken stop_;
   std::unique_ptr<SaddlePoint> j_;
   std::unique_ptr<CoupledSolver> solver_;  ///< none: to be set up.
   bool is_new_ = false;

@@ -52,7 +52,8 @@ double norm_of(const Eigen::VectorXd& v, const SumOverRanks& sum) {
 
 GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
                   const Eigen::VectorXd& b, double tolerance, int max_iterations,
-                  Eigen::VectorXd& x, const SumOverRanks& sum) {
+                  Eigen::VectorXd& x, const SumOverRanks& sum,
+                  const std::function<void()>& before_each) {
   GmresReport report;
   x.setZero(b.size());
   const double norm = norm_of(b, sum);
@@ -67,6 +68,7 @@ GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
   right[0] = norm;
   int j = 0;
   while (j < max_iterations && !report.converged) {
+    if (before_each) before_each();
     w = basis[j];
     precondition(w, z);
     multiply(z, w);

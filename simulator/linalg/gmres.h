@@ -23,8 +23,10 @@ struct GmresReport {
 /// and few iterations: finds x with |b − M x| ≤ tolerance |b| from x = 0.
 /// Keeps a vector of the size of b per iteration that is done. @param precondition  P⁻¹, linear.
 /// @param sum  where several processes have parts of the vectors; none: this one has them whole.
+/// @param before_each  called before each iteration: may throw to end it.
 GmresReport gmres(const LinearMap& multiply, const LinearMap& precondition,
                   const Eigen::VectorXd& b, double tolerance, int max_iterations,
-                  Eigen::VectorXd& x, const SumOverRanks& sum = nullptr);
+                  Eigen::VectorXd& x, const SumOverRanks& sum = nullptr,
+                  const std::function<void()>& before_each = nullptr);
 
 }  // namespace faultsim

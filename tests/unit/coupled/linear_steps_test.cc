@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "tests/unit/coupled/coupled_problem.h"
@@ -33,7 +34,7 @@ TEST(ForcingTerm, KnowsWhatTheStepAskedForWhereNewtonStartsNearby) {
   EXPECT_DOUBLE_EQ(forcing.next(1e-3), 1e-3) << "to 1e-6, a ten thousand-millionth of the load";
 }
 
-constexpr SolverChoice kKept{LeadingKind::amg, SchurKind::rac};
+constexpr SolverChoice kKept{LeadingKind::amg_by_component, SchurKind::rac};
 
 /// A Newton step with these states at the nodes, and what is left of its residual.
 struct Step {
@@ -84,6 +85,15 @@ TEST(LinearSteps, FollowASetThatChangesUntilThatCostsMoreThanANewOne) {
   }
   EXPECT_GE(n_set_up, 1);
   EXPECT_LT(n_set_up, 12);
+}
+
+TEST(LinearSteps, EndWhenTheyAreAskedTo) {
+  const CoupledExample example;
+  std::atomic<bool> flag = false;
+  LinearSteps steps(kKept, StopToken(flag));
+  EXPECT_TRUE(solve(steps, example, {}).solved.report.converged);
+  flag = true;
+  EXPECT_THROW(solve(steps, example, {}), Interrupted);
 }
 
 TEST(LinearSteps, SetUpAnewWhatIsNotOnTheSharedMatrix) {

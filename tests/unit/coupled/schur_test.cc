@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SparseCholesky>
 #include <set>
 
 #include "simulator/coupled/augmented.h"
@@ -126,7 +127,7 @@ TEST(Schur, FsaiTwiceIsItsDefinition) {
   }
 }
 
-/// Eliminating u or λ from [[K + E, C − F], [Cᵀ, −D⁻¹]] must give the same inverse.
+/// Eliminating u or λ from [[K + E, C], [Cᵀ, −D⁻¹]] must give the same inverse.
 TEST(Augmented, IsTheJacobianWithSpringsInSeries) {
   const CoupledExample example;
   for (const SaddlePoint& j : example.both()) {
@@ -135,7 +136,7 @@ TEST(Augmented, IsTheJacobianWithSpringsInSeries) {
     const int n_u = j.n_displacements(), n_l = j.n_multipliers();
     Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(n_u + n_l, n_u + n_l);
     whole.topLeftCorner(n_u, n_u) = j.leading();
-    whole.topRightCorner(n_u, n_l) = j.coupling;
+    whole.topRightCorner(n_u, n_l) = j.constraint;
     whole.bottomLeftCorner(n_l, n_u) = Eigen::MatrixXd(j.constraint).transpose();
     whole.bottomRightCorner(n_l, n_l).diagonal() = -springs.cwiseInverse();
     const Eigen::VectorXd u = Eigen::VectorXd::Random(n_u);
@@ -145,7 +146,7 @@ TEST(Augmented, IsTheJacobianWithSpringsInSeries) {
     const Eigen::VectorXd r = whole * x;
     Eigen::VectorXd found;
     direct_solver(augmented(j, springs).leading(), j.symmetric)(
-        r.head(n_u) + j.coupling * springs.cwiseProduct(r.tail(n_l)), found);
+        r.head(n_u) + j.constraint * springs.cwiseProduct(r.tail(n_l)), found);
     EXPECT_LT((found - u).norm(), 1e-7 * u.norm());
   }
 }
@@ -176,6 +177,20 @@ TEST(Augmented, IsBorrowedFromTheBulkAndGivenBack) {
                         j.n_displacements()),
               before);
   }
+}
+
+/// What multigrid is made for, however strong the friction with which faults slip.
+TEST(Augmented, IsPositiveDefiniteWhereFaultsSlip) {
+  const CoupledExample example;
+  std::vector<NodeLinearisation> all(example.bulk.fault_nodes().size());
+  for (NodeLinearisation& node : all) {
+    node.state = FaultState::slip;
+    node.tangent.d_normal = {0, -3};
+  }
+  const SaddlePoint j = make_saddle_point(example.bulk, all);
+  ASSERT_FALSE(j.symmetric);
+  const SparseMatrix s_u = example.bulk.stiffness() + added_to_bulk(j, augmenting_springs(j));
+  EXPECT_EQ(Eigen::SimplicialLLT<SparseMatrix>(s_u).info(), Eigen::Success);
 }
 
 TEST(Augmented, SpringsAreAsStiffAsTheCellsAtTheNode) {

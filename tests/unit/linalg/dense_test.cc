@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "simulator/common/errors.h"
 #include "simulator/linalg/gmres.h"
 #include "simulator/linalg/growing_lu.h"
 
@@ -112,6 +113,20 @@ TEST(Gmres, KeepsAsManyVectorsAsItTakes) {
   EXPECT_EQ(std::ssize(report.residuals), report.iterations + 1);
   EXPECT_EQ(report.residuals.back(), report.relative_residual);
   EXPECT_LT((maps.matrix * x - b).norm(), 2e-9);
+}
+
+TEST(Gmres, MayBeEndedBeforeEachIteration) {
+  const int n = 40;
+  Maps maps{random_matrix(n, 1), Eigen::MatrixXd::Identity(n, n)};
+  Eigen::VectorXd x;
+  int n_asked = 0;
+  EXPECT_THROW(
+      gmres(maps.multiply, maps.precondition, Eigen::VectorXd::Ones(n), 1e-12, n, x, nullptr,
+            [&] {
+              if (++n_asked == 4) throw Interrupted("enough");
+            }),
+      Interrupted);
+  EXPECT_EQ(n_asked, 4);
 }
 
 TEST(Gmres, SaysWhenItsIterationsDoNotSuffice) {
