@@ -13,6 +13,7 @@
 #include "simulator/common/text.h"
 #include "simulator/corner_point/fault_description.h"
 #include "simulator/corner_point/straight_trace.h"
+#include "simulator/grid_scene/carried_heights.h"
 #include "simulator/grid_scene/fault_columns.h"
 #include "simulator/grid_scene/model_pillars.h"
 
@@ -35,12 +36,8 @@ struct Group {
   std::vector<int> columns;
   std::vector<int> side;       ///< per fault: 1 left, −1 right, 0 neither.
   std::vector<char> is_on_it;  ///< per fault: the pillar is one of its, and the group has a side.
-};
-
-/// Depth and slope of a surface in a group of columns.
-struct Level {
-  double z = 0;
-  Vector2d slope = {0, 0};
+  int fault = -1;              ///< the first of these.
+  Vector2d across = {0, 0};    ///< a unit vector across it.
 };
 
 class SurfaceMaker {
@@ -61,17 +58,30 @@ class SurfaceMaker {
   std::vector<ModelSurface> make();
 
  private:
+  /// A point of the first surface, and the groups that it is of: one, or both sides of a tip.
+  struct Place {
+    Vector3d at;
+    std::vector<std::size_t> groups;
+  };
+  using FaultSide = std::pair<int, int>;  ///< fault; 1 left, −1 right.
+
   void find_groups();
   void add_groups(int pillar, const std::set<int>& barriers,
                   const std::vector<std::vector<int>>& sides);
   Level in_column(int column, int pillar, int layer) const;
   Level in_group(const Group& group, int layer) const;
+  Moved in_grid(std::size_t group, int layer) const;
   std::vector<int> chosen_layers();
   bool is_thick_enough(int above, int below) const;
   void place_points();
   ModelSurface first_surface(int layer) const;
-  ModelSurface hung_surface(int layer, const ModelSurface& first, const ModelSurface& above) const;
-  std::optional<Vector3d> placed(const Group& group, Level level);
+  std::map<FaultSide, SideProfile> profiles_of(int layer) const;
+  double height_below(const Place& place, int layer) const;
+  ModelSurface hung_surface(int layer, const ModelSurface& above) const;
+  std::optional<Vector2d> place_at(const Group& group, double z) const;
+  std::size_t end_of_pillar(std::size_t group) const;
+  std::vector<std::optional<Vector3d>> placed(std::size_t begin, int layer) const;
+  double along(const Group& group, const Vector3d& point) const;
   void add_tips();
   std::array<std::size_t, 2> beside_tip(const ModelFault& fault, const Vector2d& tip) const;
   double thinnest() const;
@@ -85,11 +95,6 @@ class SurfaceMaker {
   double least_;
   std::vector<Group> groups_;
   ModelPillars pillars_;
-  /// A point of the first surface, and the groups that it is of: one, or both sides of a tip.
-  struct Place {
-    Vector3d at;
-    std::vector<std::size_t> groups;
-  };
   std::vector<Place> places_;
   int n_left_out_ = 0;
 };
@@ -102,8 +107,17 @@ void SurfaceMaker::find_groups() {
     const std::vector<int> own =
         corner_point::pillars_of(structure_.faults[lines_.faults[f].source]);
     const std::set<int> pillars(own.begin(), own.end());
-    for (Group& group : groups_)
-      group.is_on_it.push_back(group.side[f] != 0 && pillars.contains(group.pillar) ? 1 : 0);
+    const Polyline& trace = lines_.faults[f].trace;
+    for (Group& group : groups_) {
+      const bool is_on_it = group.side[f] != 0 && pillars.contains(group.pillar);
+      group.is_on_it.push_back(is_on_it ? 1 : 0);
+      if (!is_on_it || group.fault >= 0) continue;
+      group.fault = static_cast<int>(f);
+      const Vector2d at = grid_.pillars[group.pillar].at(lines_.reference_z);
+      const int piece = corner_point::nearest_on_line(trace, at).piece;
+      const Vector2d along = (trace[piece + 1] - trace[piece]).normalized();
+      group.across = {-along.y(), along.x()};
+    }
   }
 }
 
@@ -208,15 +222,16 @@ std::vector<int> SurfaceMaker::chosen_layers() {
   return chosen;
 }
 
-/// Where a group's point lies, or none: the model's fault would put it on the wrong side.
-std::optional<Vector3d> SurfaceMaker::placed(const Group& group, Level level) {
-  Vector2d at = grid_.pillars[group.pillar].at(level.z);
+/// Where a group's point lies at a height, or none: the model's fault would put it on the wrong
+/// side.
+std::optional<Vector2d> SurfaceMaker::place_at(const Group& group, double z) const {
+  Vector2d at = grid_.pillars[group.pillar].at(z);
   constexpr int kRounds = 4;  // of a pillar on several faults
   for (int round = 0; round < kRounds; ++round) {
     bool is_right = true;
     for (std::size_t f = 0; f < lines_.faults.size(); ++f) {
       if (group.side[f] == 0) continue;
-      const Polyline line = pillars_.fault_line(f, level.z);
+      const Polyline line = pillars_.fault_line(f, z);
       const corner_point::PlaceOnLine on = corner_point::nearest_on_line(line, at);
       const bool is_beyond = on.along == 0 || on.along >= corner_point::line_length(line);
       if (is_beyond) continue;
@@ -227,14 +242,44 @@ std::optional<Vector3d> SurfaceMaker::placed(const Group& group, Level level) {
       if (!must_move && to_side >= 0.999 * options_.beside_fault) continue;
       if (group.is_on_it[f] == 0) return std::nullopt;
       is_right = false;
-      const Vector2d to =
-          on.point + group.side[f] * options_.beside_fault * Vector2d(-along.y(), along.x());
-      level.z += level.slope.dot(to - at);
-      at = to;
+      at = on.point + group.side[f] * options_.beside_fault * Vector2d(-along.y(), along.x());
     }
-    if (is_right) return Vector3d(at.x(), at.y(), level.z);
+    if (is_right) return at;
   }
   return std::nullopt;
+}
+
+Moved SurfaceMaker::in_grid(std::size_t group, int layer) const {
+  const Level level = in_group(groups_[group], layer);
+  return {level, grid_.pillars[groups_[group].pillar].at(level.z), groups_[group].across};
+}
+
+/// After the last group of a pillar, from its first one.
+std::size_t SurfaceMaker::end_of_pillar(std::size_t group) const {
+  std::size_t end = group;
+  while (end < groups_.size() && groups_[end].pillar == groups_[group].pillar) ++end;
+  return end;
+}
+
+/// Points of a surface of all groups of a pillar, from its first one, or none.
+std::vector<std::optional<Vector3d>> SurfaceMaker::placed(std::size_t begin, int layer) const {
+  std::vector<Moved> moved;
+  for (std::size_t g = begin; g < end_of_pillar(begin); ++g) moved.push_back(in_grid(g, layer));
+  const std::vector<double> z = carried(
+      moved, [&](std::size_t k, double height) { return place_at(groups_[begin + k], height); });
+  std::vector<std::optional<Vector3d>> points;
+  for (std::size_t k = 0; k < z.size(); ++k) {
+    const std::optional<Vector2d> at = place_at(groups_[begin + k], z[k]);
+    points.push_back(at ? std::optional(Vector3d(at->x(), at->y(), z[k])) : std::nullopt);
+  }
+  return points;
+}
+
+/// How far along the trace of its fault the model's pillar through a point of a group stands, m.
+double SurfaceMaker::along(const Group& group, const Vector3d& point) const {
+  return corner_point::nearest_on_line(lines_.faults[static_cast<std::size_t>(group.fault)].trace,
+                                       pillars_.at(point, lines_.reference_z))
+      .along;
 }
 
 /// Of the points on either side of a fault those nearest to its tip.
@@ -279,9 +324,14 @@ void SurfaceMaker::add_tips() {
 /// Points of the reservoir's top; surfaces below hang from them.
 void SurfaceMaker::place_points() {
   std::set<std::tuple<std::size_t, int, long>> taken;  // fault, side, place along it
+  std::vector<std::optional<Vector3d>> points;
+  while (points.size() < groups_.size()) {
+    const auto of_pillar = placed(points.size(), -1);
+    points.insert(points.end(), of_pillar.begin(), of_pillar.end());
+  }
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
-    const std::optional<Vector3d> point = placed(group, in_group(group, -1));
+    const std::optional<Vector3d>& point = points[g];
     if (!point) {
       n_left_out_ += 1;
       continue;
@@ -303,25 +353,56 @@ ModelSurface SurfaceMaker::first_surface(int layer) const {
   return {.name = "", .layer = layer, .points = mapped(places_, &Place::at), .thickness = {}};
 }
 
-/// A surface as much below another as it is in the grid, on pillars of the model.
-ModelSurface SurfaceMaker::hung_surface(int layer, const ModelSurface& first,
-                                        const ModelSurface& above) const {
+/// A surface along both sides of the faults, of the pillars that the first surface has points of.
+std::map<SurfaceMaker::FaultSide, SideProfile> SurfaceMaker::profiles_of(int layer) const {
+  std::set<std::size_t> used;
+  for (const Place& place : places_)
+    if (place.groups.size() == 1) used.insert(place.groups.front());
+  std::map<FaultSide, SideProfile> profiles;
+  for (std::size_t begin = 0; begin < groups_.size(); begin = end_of_pillar(begin)) {
+    if (std::ranges::all_of(groups_.begin() + static_cast<std::ptrdiff_t>(begin),
+                            groups_.begin() + static_cast<std::ptrdiff_t>(end_of_pillar(begin)),
+                            [](const Group& group) { return group.fault < 0; }))
+      continue;
+    const auto points = placed(begin, layer);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Group& group = groups_[begin + k];
+      if (group.fault < 0 || !points[k] || !used.contains(begin + k)) continue;
+      profiles[{group.fault, group.side[static_cast<std::size_t>(group.fault)]}].add(
+          along(group, *points[k]), points[k]->z());
+    }
+  }
+  return profiles;
+}
+
+/// Where the model's pillar through a place meets the plane of its own columns.
+double SurfaceMaker::height_below(const Place& place, int layer) const {
+  double mean = 0;
+  for (const std::size_t g : place.groups) {
+    Moved own = in_grid(g, layer);
+    own.across = {0, 0};
+    const std::vector<double> z =
+        carried({own}, [&](std::size_t, double height) { return pillars_.at(place.at, height); });
+    mean += z.front() / static_cast<double>(place.groups.size());
+  }
+  return mean;
+}
+
+/// A surface as much below another as it is in the grid, on pillars of the model: beside a fault at
+/// the same place along it, as pillars of the grid lean along faults too.
+ModelSurface SurfaceMaker::hung_surface(int layer, const ModelSurface& above) const {
+  const std::map<FaultSide, SideProfile> profiles = profiles_of(layer);
   ModelSurface surface{.name = "", .layer = layer, .points = {}, .thickness = {}};
   for (std::size_t p = 0; p < places_.size(); ++p) {
-    const auto n = static_cast<double>(places_[p].groups.size());
-    double z = 0;
-    for (const std::size_t g : places_[p].groups) {
-      const Level level = in_group(groups_[g], layer);
-      const Vector2d own = grid_.pillars[groups_[g].pillar].at(level.z);
-      double met = level.z;
-      constexpr int kRounds = 3;  // planes are flatter than pillars
-      for (int round = 0; round < kRounds; ++round)
-        met = level.z + level.slope.dot(pillars_.at(first.points[p], met) - own);
-      z += met / n;
-    }
-    surface.thickness.push_back(std::max(least_, above.points[p].z() - z));
-    z = above.points[p].z() - surface.thickness.back();
-    const Vector2d at = pillars_.at(first.points[p], z);
+    const Group& group = groups_[places_[p].groups.front()];
+    std::optional<double> height;
+    if (group.fault >= 0 && places_[p].groups.size() == 1)
+      height = profiles.at({group.fault, group.side[static_cast<std::size_t>(group.fault)]})
+                   .at(along(group, places_[p].at));
+    const double grids = height ? *height : height_below(places_[p], layer);
+    surface.thickness.push_back(std::max(least_, above.points[p].z() - grids));
+    const double z = above.points[p].z() - surface.thickness.back();
+    const Vector2d at = pillars_.at(places_[p].at, z);
     surface.points.emplace_back(at.x(), at.y(), z);
   }
   return surface;
@@ -341,8 +422,8 @@ std::vector<ModelSurface> SurfaceMaker::make() {
   const std::vector<int> layers = chosen_layers();
   place_points();
   for (std::size_t s = 0; s < layers.size(); ++s) {
-    ModelSurface surface = s == 0 ? first_surface(layers[s])
-                                  : hung_surface(layers[s], surfaces.front(), surfaces.back());
+    ModelSurface surface =
+        s == 0 ? first_surface(layers[s]) : hung_surface(layers[s], surfaces.back());
     const bool is_one = layers.size() == 2;
     surface.name = s + 1 == layers.size() ? "underburden"
                    : is_one               ? "reservoir"

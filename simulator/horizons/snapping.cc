@@ -8,6 +8,8 @@ namespace faultsim::horizons {
 namespace {
 
 constexpr double kSnap = 0.12;  // of a cell
+// Of a cell, between horizons at faults whose throw is that of points: it is a measured one.
+constexpr double kSnapMeasured = 0.03;
 
 /// A depth on a pillar that may be moved, and whose it is: horizons of one place, or one fault's
 /// ends, must stay apart.
@@ -23,6 +25,7 @@ class Snapper {
       : body_(body), map_(map), cut_(cut), levels_(levels), sides_(sides_of(map.triangles)) {
     for (const TracePiece& piece : trace_pieces(map, sides_)) pieces_.push_back(piece);
     on_pillar_.resize(map.vertices.size());
+    is_measured_.resize(map.vertices.size(), true);
     for (int f = 0; f < map.n_faults; ++f)
       for (std::size_t k = 0; k < map.lines[f].size(); ++k) gather(f, k);
   }
@@ -32,7 +35,9 @@ class Snapper {
   using Line = std::array<PillarDepth, 2>;  ///< a depth at both ends of a piece of a trace.
 
   void gather(int fault, std::size_t k);
-  void snap(std::vector<PillarDepth>& depths);
+  double limit(const PillarDepth& p, const PillarDepth& q, bool is_measured) const;
+  void snap_all();
+  void snap(std::vector<PillarDepth>& depths, bool is_measured);
   std::vector<Line> lines_over(const TracePiece& piece);
   bool uncross(const TracePiece& piece);
   bool is_ordered(const TracePiece& piece) const;
@@ -45,10 +50,12 @@ class Snapper {
   std::vector<MapSide> sides_;
   std::vector<TracePiece> pieces_;
   std::vector<std::vector<PillarDepth>> on_pillar_;  ///< per vertex, of faults only.
+  std::vector<bool> is_measured_;  ///< per vertex: throws of all faults there are those of points.
 };
 
 void Snapper::gather(int fault, std::size_t k) {
   const int vertex = map_.lines[fault][k];
+  if (body_.faults[fault].moved) is_measured_[vertex] = false;
   std::vector<PillarDepth>& here = on_pillar_[vertex];
   if (here.empty())
     for (const int place : cut_.at[vertex])
@@ -69,8 +76,18 @@ void Snapper::join(PillarDepth& p, PillarDepth& q) {
   }
 }
 
+/// Depths that are closer are joined, m.
+double Snapper::limit(const PillarDepth& p, const PillarDepth& q, bool is_measured) const {
+  const bool is_throw = is_measured && p.is_horizon && q.is_horizon;
+  return (is_throw ? kSnapMeasured : kSnap) * body_.cells.at_faults;
+}
+
+void Snapper::snap_all() {
+  for (std::size_t v = 0; v < on_pillar_.size(); ++v) snap(on_pillar_[v], is_measured_[v]);
+}
+
 /// Joins groups of neighbours of different owners to their mean; ends of faults follow horizons.
-void Snapper::snap(std::vector<PillarDepth>& depths) {
+void Snapper::snap(std::vector<PillarDepth>& depths, bool is_measured) {
   std::ranges::stable_sort(depths,
                            [](const PillarDepth& p, const PillarDepth& q) { return *p.z < *q.z; });
   for (std::size_t first = 0; first < depths.size();) {
@@ -81,7 +98,8 @@ void Snapper::snap(std::vector<PillarDepth>& depths) {
                           [&](const PillarDepth& other) { return other.owner == one.owner; });
     };
     while (last < depths.size() && is_new_owner(depths[last]) &&
-           *depths[last].z - *depths[last - 1].z < kSnap * body_.cells.at_faults)
+           *depths[last].z - *depths[last - 1].z <
+               limit(depths[last], depths[last - 1], is_measured))
       ++last;
     double sum = 0, n = 0;
     for (std::size_t k = first; k < last; ++k) {
@@ -146,11 +164,11 @@ bool Snapper::is_ordered(const TracePiece& piece) const {
 
 void Snapper::run(std::vector<Problem>& problems) {
   constexpr int kSweeps = 50;
-  for (std::vector<PillarDepth>& depths : on_pillar_) snap(depths);
+  snap_all();
   for (int round = 0; round < kSweeps; ++round) {
     bool has_changed = false;
     for (const TracePiece& piece : pieces_) has_changed |= uncross(piece);
-    for (std::vector<PillarDepth>& depths : on_pillar_) snap(depths);
+    snap_all();
     if (!has_changed) break;
   }
   for (const TracePiece& piece : pieces_) {

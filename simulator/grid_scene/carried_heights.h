@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+/// How heights of surfaces of a grid go on from its pillars to a straightened fault. m, z up.
+namespace faultsim::grid_scene {
+
+/// Height and slope of a surface.
+struct Level {
+  double z = 0;
+  Eigen::Vector2d slope = {0, 0};
+};
+
+/// A surface in the columns of one side of a pillar, before it is moved.
+struct Moved {
+  Level level;
+  Eigen::Vector2d from;             ///< where the pillar is there.
+  Eigen::Vector2d across = {0, 0};  ///< the fault that it is on, a unit vector; (0, 0): on none.
+};
+
+/// Heights of all sides of one pillar where they are moved to. Along the fault each goes on by its
+/// own slope, across it all by the mean of their slopes: what lies between the sides, the throw, is
+/// kept where the pillar is put on the straightened fault.
+/// @param place  where one of them is at a height; none: it is not moved.
+std::vector<double> carried(
+    const std::vector<Moved>& sides,
+    const std::function<std::optional<Eigen::Vector2d>(std::size_t side, double z)>& place);
+
+/// A surface along one side of a fault, linear between points.
+class SideProfile {
+ public:
+  /// @param along  m; points in any order.
+  void add(double along, double z);
+  /// None before the first and after the last point.
+  std::optional<double> at(double along) const;
+
+ private:
+  std::vector<std::pair<double, double>> points_;  ///< in order along the fault.
+};
+
+}  // namespace faultsim::grid_scene
