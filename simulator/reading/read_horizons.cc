@@ -117,7 +117,8 @@ std::vector<std::string> remarks_of(const horizons::BuiltBody& built) {
   if (built.n_snapped > 0) {
     remarks.push_back(concat("has ", counted(built.n_snapped, "place", "places"),
                              " where horizons of both sides of a fault are joined, as they differ "
-                             "by less than 0.12 of a cell"));
+                             "by less than 0.12 of a cell (0.03 where the throw is that of "
+                             "points)"));
   }
   return remarks;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulator/corner_point/column_map.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/grid_pictures.h"
 #include "simulator/grid_scene/line_check.h"
@@ -93,6 +94,89 @@ TEST(GridScene, HasPointsOfBothSidesBesideAFaultWithItsThrow) {
   }
   EXPECT_GT(n[0], 20);
   EXPECT_GT(n[1], 20);
+}
+
+/// Rock right of an oblique fault that dips away from it by `slope` more than on its left, on
+/// pillars that lean across the fault.
+corner_point::CornerPointGrid grid_with_drag(double lean, double slope) {
+  MadeGrid plan = grid_of_a_fault(0);
+  const Vector2d along = (plan.faults[0].to - plan.faults[0].from).normalized();
+  const Vector2d right(along.y(), -along.x());
+  plan.lean = lean * right;
+  corner_point::CornerPointGrid grid = made(plan);
+  std::size_t corner = 0;
+  for (int plane = 0; plane < 2 * grid.size[2]; ++plane)
+    for (int row = 0; row < 2 * grid.size[1]; ++row)
+      for (int place = 0; place < 2 * grid.size[0]; ++place, ++corner) {
+        const Vector2d pillar((place + 1) / 2 * plan.dx, (row + 1) / 2 * plan.dy),
+            column((place / 2 + 0.5) * plan.dx, (row / 2 + 0.5) * plan.dy);
+        if (right.dot(column - plan.faults[0].from) > 0)
+          grid.corner_z[corner] -= slope * right.dot(pillar - plan.faults[0].from);
+      }
+  return grid;
+}
+
+/// Per pillar of the only fault but the last ones, how far along the trace it stands, m, and how
+/// much lower the right side is there, by the corners of the grid's top.
+std::vector<std::pair<double, double>> throws_of_grid(const MadeScene& all) {
+  const corner_point::ColumnMap map(all.grid);
+  const auto top = [&](int column, int pillar) {
+    return all.grid.z(column, 0, map.corner_at(column, pillar));
+  };
+  const std::vector<corner_point::FaultEdge>& edges = all.structure.faults.at(0).edges;
+  std::vector<std::pair<double, double>> throws;
+  for (std::size_t e = 0; e + 1 < edges.size(); ++e) {
+    const int pillar = edges[e].to;
+    const Vector2d at = all.grid.pillars[pillar].at(all.made.lines.reference_z);
+    throws.emplace_back(nearest_on_line(all.made.lines.faults[0].trace, at).along,
+                        top(edges[e].left, pillar) - top(edges[e].right, pillar));
+  }
+  return throws;
+}
+
+/// Points of a surface a metre beside the only fault, left and right of it: along the trace, m, and
+/// z.
+std::array<std::vector<std::pair<double, double>>, 2> points_beside(const MadeScene& all,
+                                                                    const ModelSurface& surface) {
+  std::array<std::vector<std::pair<double, double>>, 2> sides;
+  for (const Vector3d& at : surface.points) {
+    const Polyline line = all.made.lines.faults[0].at(at.z(), all.made.lines.reference_z);
+    const auto on = nearest_on_line(line, at.head<2>());
+    if (on.distance > 1.5) continue;
+    const bool is_right =
+        cross_product(line[on.piece + 1] - line[on.piece], at.head<2>() - line[on.piece]) < 0;
+    sides[is_right ? 1 : 0].emplace_back(on.along, at.z());
+  }
+  return sides;
+}
+
+/// Pillars of a grid stand up to half a cell from the straight line that is the model's fault. By
+/// the slopes of each side their throws would differ there by 0.15 of that way; and a fault that
+/// dips is elsewhere at the height that they have then.
+TEST(GridScene, KeepsTheThrowOfEachPillarWhereItsSidesSlopeDifferently) {
+  const MadeScene all = scene_of(grid_with_drag(1.2, 0.15));
+  ASSERT_EQ(all.made.lines.faults.size(), 1u);
+  const auto throws = throws_of_grid(all);
+  ASSERT_GT(throws.size(), 30u);
+  for (const ModelSurface& surface : all.made.surfaces) {
+    const auto [left, right] = points_beside(all, surface);
+    double least = 1e300, largest = 0;
+    for (const auto& [along, down] : throws) {
+      const auto nearest = [&, at = along](const auto& side) {
+        return *std::ranges::min_element(
+            side, {}, [&](const auto& point) { return std::abs(point.first - at); });
+      };
+      const auto l = nearest(left), r = nearest(right);
+      EXPECT_NEAR(l.first, along, 10) << "no point of the left side";
+      EXPECT_NEAR(r.first, along, 10) << "no point of the right side";
+      // The base is taken some metres along the fault from the corners of the grid, which lean a
+      // little along the trace.
+      EXPECT_NEAR(l.second - r.second, down, surface.thickness.empty() ? 0.01 : 2) << along;
+      least = std::min(least, down);
+      largest = std::max(largest, down);
+    }
+    EXPECT_GT(largest - least, 5) << "else nothing was shown";
+  }
 }
 
 TEST(GridScene, IsTheSceneOfTheContract) {

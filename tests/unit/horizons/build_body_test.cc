@@ -222,6 +222,43 @@ TEST(BuildBody, ThrowTapersToATip) {
   }
 }
 
+/// Horizons of points that step down to the right of dipping_fault().
+LayeredBody stepped_body(double step) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  PointDepth top;
+  for (double x = -2900; x < 3000; x += 200)
+    for (double y = -1900; y < 2000; y += 200) {
+      const bool is_right = x > (body.trace_depth + 1900) / std::tan(60 * test::kDegree);
+      top.points.emplace_back(x, y, is_right ? -1900 - step : -1900);
+    }
+  body.horizons[1].depth = HungDepth{std::vector<double>(top.points.size(), 200)};
+  body.horizons[0].depth = std::move(top);
+  return body;
+}
+
+TEST(BuildBody, ThrowsOfPointsStayFromThreeHundredthsOfACellOn) {
+  ASSERT_EQ(reservoir_body().cells.at_faults, 200);
+  const BuiltBody kept = build_body(stepped_body(8), "body");
+  EXPECT_EQ(kept.n_snapped, 0);
+  for (const FoundThrow& one : kept.throws) {
+    EXPECT_NEAR(one.least, 8, 1e-6);
+    EXPECT_NEAR(one.largest, 8, 1e-6);
+  }
+  const BuiltBody joined = build_body(stepped_body(4), "body");
+  EXPECT_GT(joined.n_snapped, 0);
+  for (const FoundThrow& one : joined.throws) EXPECT_EQ(one.largest, 0);
+}
+
+TEST(BuildBody, ThrowsThatAreGivenStayFromTwelveHundredthsOfACellOn) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].moved = FaultThrow{16, 0.5};
+  for (const FoundThrow& one : build_body(body, "body").throws) EXPECT_EQ(one.largest, 0);
+  body.faults[0].moved = FaultThrow{32, 0.5};
+  for (const FoundThrow& one : build_body(body, "body").throws) EXPECT_NEAR(one.least, 32, 1e-6);
+}
+
 TEST(BuildBody, ReservoirsSideBySideAreJoinedWhereLinesCross) {
   // The top of one side meets the bottom of the other near a pillar, or half way between two.
   for (const double taper : {3000., 1000.}) {
