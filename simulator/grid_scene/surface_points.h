@@ -24,13 +24,14 @@ struct SurfaceOptions {
 /// faults by themselves.
 ///
 /// A pillar of the grid on a fault has a point for each side of it, on the line of the model's
-/// fault at its depth and a little to its side; all depths of a pillar go on there by the mean slope
-/// of both sides, so that it keeps its throw. Other pillars keep their place; those that the straightened fault would put on the
-/// wrong side are left out, of all surfaces. The surfaces below the first hang from its points:
-/// each is as much deeper as the grid's is where the model's pillar through the point meets the
-/// plane of its own columns, on a fault at the same place along its side, so that surfaces cannot cross between points. Where the reservoir is
-/// thinner than a layer may be, its base lies deeper; layers of the grid thinner than that are no
-/// layers of the model. Said in remarks.
+/// fault at its depth and a little to its side; all depths of a pillar go on there by the mean
+/// slope of both sides, so that it keeps its throw. Other pillars keep their place; those that the
+/// straightened fault would put on the wrong side are left out, of all surfaces. The surfaces below
+/// the first hang from its points: each is as much deeper as the grid's is where the model's pillar
+/// through the point meets the plane of its own columns, on a fault at the same place along its
+/// side, so that surfaces cannot cross between points. Where the reservoir is thinner than a layer
+/// may be, its base lies deeper; layers of the grid thinner than that are no layers of the model.
+/// Said in remarks.
 std::vector<ModelSurface> model_surfaces(const corner_point::CornerPointGrid& grid,
                                          const corner_point::GridStructure& structure,
                                          const ModelLines& lines, const SurfaceOptions& options,
