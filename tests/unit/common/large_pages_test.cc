@@ -47,7 +47,9 @@ TEST_F(LargePages, AreAskedForWhereTheKernelHasThem) {
   ASSERT_EQ(flags_of(memory_ + kBytes / 2).find(" hg "), std::string::npos);
   ask_for_large_pages(memory_ + 1, kBytes - 2);
   const std::string flags = flags_of(memory_ + kBytes / 2);  // some sandboxes do not tell them
-  if (has && !flags.empty()) EXPECT_NE(flags.find(" hg "), std::string::npos);
+  if (has && !flags.empty()) {
+    EXPECT_NE(flags.find(" hg "), std::string::npos);
+  }
   std::fill_n(memory_, kBytes, 7);
   EXPECT_EQ(std::count(memory_, memory_ + kBytes, 7), static_cast<std::ptrdiff_t>(kBytes));
 }
