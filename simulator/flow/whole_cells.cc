@@ -46,6 +46,22 @@ std::vector<Sums> sums_at(const FlowMapping& mapping, const FlowField& field, in
   return sums;
 }
 
+/// Rock of a compartment, m3.
+double volume_of_ours(const FlowMapping& mapping, std::size_t region) {
+  double volume = 0;
+  for (std::size_t c = 0; c < mapping.part.size(); ++c) {
+    if (mapping.region[c] == static_cast<int>(region)) volume += mapping.part[c];
+  }
+  return volume;
+}
+
+/// The same of the flow cells that count with it.
+double volume_of_theirs(const FlowMapping& mapping, std::size_t region) {
+  double volume = 0;
+  for (const FlowMapping::Weight& cell : mapping.flow_cells[region]) volume += cell.value;
+  return volume;
+}
+
 /// @throws InputError for all compartments whose integrals are not those of one field.
 std::vector<IntegralBalance> balances(const FlowMapping& mapping,
                                       const std::vector<std::vector<Sums>>& of_report,
@@ -74,10 +90,12 @@ std::vector<IntegralBalance> balances(const FlowMapping& mapping,
     problems.push_back(
         {"", 0,
          formatted("the integrals of its change over %s and over the flow cells that count with it "
-                   "differ by up to %.3g times the former",
-                   region_names[r].c_str(), off / size),
-         "check the place of the compartment; flow cells far from it count with it too by "
-         "\"integral\": \"flow_grid\": leave that out where the model is a part of the field"});
+                   "differ by up to %.3g times the former; it has %.3g m3, they %.3g m3",
+                   region_names[r].c_str(), off / size, volume_of_ours(mapping, r),
+                   volume_of_theirs(mapping, r)),
+         "check where the compartment lies and how thick its layers are; flow cells far from it "
+         "count with it too by \"integral\": \"flow_grid\": leave that out where the model is a "
+         "part of the field"});
   }
   if (!problems.empty()) throw InputError("flow field", problems);
   return balance;
@@ -136,9 +154,9 @@ std::vector<IntegralBalance> keep_integrals(const FlowMapping& mapping, const Fl
     of_report.push_back(
         sums_at(mapping, field, reference, reports[t], change.col(static_cast<Eigen::Index>(t))));
   const std::vector<IntegralBalance> balance = balances(mapping, of_report, region_names);
-  std::vector<double> volume(mapping.flow_cells.size());
-  for (std::size_t c = 0; c < mapping.part.size(); ++c)
-    volume[static_cast<std::size_t>(mapping.region[c])] += mapping.part[c];
+  std::vector<double> volume;
+  for (std::size_t r = 0; r < mapping.flow_cells.size(); ++r)
+    volume.push_back(volume_of_ours(mapping, r));
   for (std::size_t t = 0; t < reports.size(); ++t) {
     for (std::size_t c = 0; c < mapping.part.size(); ++c) {
       const auto region = static_cast<std::size_t>(mapping.region[c]);

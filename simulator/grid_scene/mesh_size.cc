@@ -39,16 +39,20 @@ double median_cell(const corner_point::ColumnMap& map) {
   return *middle;
 }
 
-MeshGrading grading_of(const corner_point::GridStructure& structure, const ModelLines& lines) {
-  double thickness = 0, area = 0;
+double mean_thickness(const corner_point::GridStructure& structure) {
+  double volume = 0, area = 0;
   for (const corner_point::Compartment& one : structure.compartments) {
-    thickness += one.area * (one.mean_top - one.mean_base);
+    volume += one.area * (one.mean_top - one.mean_base);
     area += one.area;
   }
+  return volume / area;
+}
+
+MeshGrading grading_of(const corner_point::GridStructure& structure, const ModelLines& lines) {
   const double width = (lines.high - lines.low).minCoeff();
   // Cells of a thin layer get flat: 16 times as wide as high at most, on the whole.
   constexpr double kShare = 15, kFlat = 16, kRound = 100, kLeast = 500, kMost = 2000;
-  const double size = std::min(width / kShare, kFlat * thickness / area);
+  const double size = std::min(width / kShare, kFlat * mean_thickness(structure));
   return {.largest = std::clamp(kRound * std::round(size / kRound), kLeast, kMost)};
 }
 

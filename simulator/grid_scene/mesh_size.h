@@ -8,6 +8,9 @@ namespace faultsim::grid_scene {
 /// The longer side of the grid's cells: the median over active columns, m.
 double median_cell(const corner_point::ColumnMap& map);
 
+/// Of the reservoir, m: that of the compartments, weighted by their areas.
+double mean_thickness(const corner_point::GridStructure& structure);
+
 /// Cells of the model, as scenes say it: `growth` m larger per m away from faults, at most
 /// `largest`.
 struct MeshGrading {

@@ -15,8 +15,10 @@ struct ModelSurface {
 };
 
 struct SurfaceOptions {
-  int every = 0;            ///< also the top of every so many layers of the grid; 0: none.
-  double least_layer = 0;   ///< m, of a layer of the model; 0: a fifth of a cell at the faults.
+  int every = 0;  ///< also the top of every so many layers of the grid; 0: none.
+  /// m, of a layer of the model; 0: a fifth of a cell at the faults, or half the reservoir's mean
+  /// thickness where that is less, but 0.06 of a cell.
+  double least_layer = 0;
   double beside_fault = 1;  ///< m from a trace to the points of its sides.
 };
 

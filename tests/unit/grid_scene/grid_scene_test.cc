@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <numbers>
 
 #include "simulator/corner_point/column_map.h"
@@ -228,11 +229,24 @@ TEST(GridScene, KeepsThinReservoirsApart) {
   grid.thickness = {0.5, 0, 1};
   const MadeScene all = scene_of(made(grid));
   EXPECT_TRUE(says(all.made.remarks, "the reservoir is 1.5 m thick at its thinnest"));
-  const double least = 0.2 * all.made.lines.strike;
+  const double least = 0.06 * all.made.lines.strike;
   const std::vector<Vector3d>&top = all.made.surfaces[0].points,
         &base = all.made.surfaces[1].points;
   ASSERT_EQ(top.size(), base.size());
   for (std::size_t p = 0; p < top.size(); ++p) EXPECT_GE(top[p].z() - base[p].z(), least - 0.1);
+}
+
+/// The rock of a thin reservoir is not doubled for the sake of its cells.
+TEST(GridScene, LeavesReservoirsAsThinAsTheyAre) {
+  MadeGrid grid = grid_of_a_fault(0);
+  grid.thickness = {2, 2, 2};
+  const GridScene made_scene = scene_of(made(grid)).made;
+  ASSERT_GT(0.2 * made_scene.lines.strike, 6);
+  ASSERT_LT(0.06 * made_scene.lines.strike, 6);
+  const std::vector<double>& thickness = made_scene.surfaces[1].thickness;
+  EXPECT_NEAR(std::accumulate(thickness.begin(), thickness.end(), 0.0) /
+                  static_cast<double>(thickness.size()),
+              6, 0.3);
 }
 
 TEST(GridScene, HasLayersOfTheGridOnRequest) {
