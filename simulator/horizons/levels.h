@@ -25,7 +25,8 @@ struct Levels {
 /// from different sides and are closer than 0.12 of a cell are joined, horizons of both sides only
 /// from 0.03 of a cell down where no fault of the pillar has a throw that is given: then it is that
 /// of points, a measured one. Where the lines of both sides cross between two pillars of a fault,
-/// they are joined at the nearer one.
+/// they are joined at the nearer one, half way or as near to it as the layers of both sides allow;
+/// at the other one where they do not, or where the nearer is a tip, at which both sides are one.
 Levels find_levels(const LayeredBody& body, const MapMesh& map, const CutMap& cut,
                    const Pillars& pillars, const std::vector<DepthSurface>& horizons,
                    std::vector<Problem>& problems);

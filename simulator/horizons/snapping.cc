@@ -19,6 +19,15 @@ struct PillarDepth {
   bool is_horizon;
 };
 
+/// Of z, m; empty if low > high.
+struct Range {
+  double low, high;
+};
+
+Range common_part(const Range& one, const Range& other) {
+  return {std::max(one.low, other.low), std::min(one.high, other.high)};
+}
+
 class Snapper {
  public:
   Snapper(const LayeredBody& body, const MapMesh& map, const CutMap& cut, Levels& levels)
@@ -41,6 +50,8 @@ class Snapper {
   std::vector<Line> lines_over(const TracePiece& piece);
   bool uncross(const TracePiece& piece);
   bool is_ordered(const TracePiece& piece) const;
+  Range room(const PillarDepth& depth) const;
+  bool can_join(const PillarDepth& p, const PillarDepth& q) const;
   void join(PillarDepth& p, PillarDepth& q);
 
   const LayeredBody& body_;
@@ -64,11 +75,31 @@ void Snapper::gather(int fault, std::size_t k) {
   if (body_.faults[fault].top) here.push_back({&levels_.top[fault][k], -1 - fault, false});
 }
 
+/// Where a horizon may move without using up the layers above and below it on its side.
+Range Snapper::room(const PillarDepth& depth) const {
+  if (!depth.is_horizon) return {body_.base, body_.top};
+  const std::vector<double>& z = levels_.horizons[depth.owner];
+  const auto k = static_cast<std::size_t>(depth.z - z.data());
+  const double above = k == 0 ? body_.top : z[k - 1];
+  const double below = k + 1 == z.size() ? body_.base : z[k + 1];
+  const double kept = kSnapMeasured * body_.cells.at_faults;
+  return {below + std::min(kept, (z[k] - below) / 2), above - std::min(kept, (above - z[k]) / 2)};
+}
+
+/// At a tip both sides are one place, whose horizons stay apart.
+bool Snapper::can_join(const PillarDepth& p, const PillarDepth& q) const {
+  const Range both = common_part(room(p), room(q));
+  return p.owner != q.owner && both.low <= both.high;
+}
+
+/// Horizons meet half way, or as near to it as their layers allow.
 void Snapper::join(PillarDepth& p, PillarDepth& q) {
   if (*p.z == *q.z) return;
   ++levels_.n_snapped;
   if (p.is_horizon == q.is_horizon) {
-    *p.z = *q.z = (*p.z + *q.z) / 2;
+    const Range both = common_part(room(p), room(q));
+    const double middle = (*p.z + *q.z) / 2;
+    *p.z = *q.z = both.low > both.high ? middle : std::clamp(middle, both.low, both.high);
   } else if (p.is_horizon) {
     *q.z = *p.z;
   } else {
@@ -145,8 +176,10 @@ bool Snapper::uncross(const TracePiece& piece) {
       const double first = *lines[p][0].z - *lines[q][0].z;
       const double second = *lines[p][1].z - *lines[q][1].z;
       if (!(first * second < 0)) continue;
-      const std::size_t nearer = std::abs(first) <= std::abs(second) ? 0 : 1;
-      join(lines[p][nearer], lines[q][nearer]);
+      std::size_t end = std::abs(first) <= std::abs(second) ? 0 : 1;
+      if (!can_join(lines[p][end], lines[q][end]) && can_join(lines[p][1 - end], lines[q][1 - end]))
+        end = 1 - end;
+      join(lines[p][end], lines[q][end]);
       has_changed = true;
     }
   return has_changed;

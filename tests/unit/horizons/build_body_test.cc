@@ -276,6 +276,26 @@ TEST(BuildBody, ReservoirsSideBySideAreJoinedWhereLinesCross) {
   }
 }
 
+/// Between the last pillar and the tip, where both sides are one, the top of one side would cross
+/// the bottom of the other: they are joined at the pillar, not at the tip.
+TEST(BuildBody, AThrowThatEndsWithinACellLeavesTheTipItsLayers) {
+  LayeredBody body = reservoir_body();
+  LayeredFault fault = dipping_fault();
+  fault.trace = {{0, -2000}, {0, 1000}};
+  fault.last_end = TraceEnd::in_rock;
+  fault.moved = FaultThrow{460, 0.5, 900, 150};
+  body.faults = {fault};
+  const BuiltBody built = build_body(body, "body");
+  EXPECT_GT(built.n_snapped, 0);
+  EXPECT_GT(built.smallest_sicn, 0.05);
+  const auto depth = horizon_beside(built);
+  const double tip = std::prev(depth.at(false).end())->first;
+  EXPECT_NEAR(tip, 1000, 50);
+  const auto last = std::next(depth.at(false).rbegin());
+  EXPECT_NEAR(last->second, -1900 + 230, 1) << "the top of the footwall stays";
+  EXPECT_NEAR(depth.at(true).at(last->first), -1900 - 100, 1) << "that of the other side rises";
+}
+
 /// How many places have so many copies of a node, up to four.
 std::vector<int> places_of_copies(const Mesh& mesh) {
   std::map<int, std::size_t> copies;
