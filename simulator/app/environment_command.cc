@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "simulator/app/commands.h"
+#include "simulator/app/program.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/machine.h"
@@ -21,6 +21,10 @@ namespace faultsim {
 namespace {
 
 using Fields = nlohmann::ordered_json;
+
+struct EnvironmentArguments {
+  bool json = false;
+};
 
 std::string machine() {
   struct utsname names = {};
@@ -84,9 +88,9 @@ std::string in_words(const std::string& name, const Fields& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-}  // namespace
-
-ExitCode environment_command(bool json) {
+/// Prints what the bits of results depend on besides the scene, and its fingerprint. No names of
+/// machines, no paths.
+ExitCode environment_command(const EnvironmentArguments& arguments) {
   const std::string complaint = blas_complaint();
   if (!complaint.empty()) std::cerr << complaint << "\n";
   const Fields fields = environment();
@@ -97,7 +101,7 @@ ExitCode environment_command(bool json) {
                          {"blas_threads_at_start", blas_info().n_threads}};
   const Fields programs = built_in();
   const std::string hash = fingerprint(fields.dump());
-  if (json) {
+  if (arguments.json) {
     Fields document = {{"fingerprint", hash}, {"environment", fields}, {"built_in", programs}};
     document.update(others);
     std::cout << json_text(std::move(document));
@@ -111,6 +115,16 @@ ExitCode environment_command(bool json) {
   }
   std::cout << "fingerprint             " << hash << "\n";
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_environment(Program& program) {
+  auto [command, a] = program.add(
+      "environment", "what the last digits depend on: processor, BLAS, libraries; what is built in",
+      environment_command);
+  add_json(command, a.json);
+  command->footer("Example: faultsim environment --json");
 }
 
 }  // namespace faultsim

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
+#include "simulator/app/program.h"
 #include "simulator/common/text.h"
 #include "simulator/contact/contact_export.h"
 #include "simulator/files/json_text.h"
@@ -134,6 +134,24 @@ ExitCode export_contact_command(const ExportArguments& arguments) {
   if (exported.solution) return ExitCode::done;
   std::cerr << "the problem was written without a solution: " << exported.failure << "\n";
   return ExitCode::no_convergence;
+}
+
+void add_export_contact(Program& program) {
+  auto [command, a] = program.add("export-contact",
+                                  "write the contact problem of a load step as an FCLib HDF5 file",
+                                  export_contact_command);
+  add_scene(command, a.scene);
+  command->add_option("--step", a.step, "load step; 0 = the initial equilibrium")->required();
+  command->add_option("-o,--output", a.output, "file to write")->required();
+  command->add_flag("--freeze-strength", a.freeze_strength,
+                    "friction that weakens keeps its value at the start of the step");
+  add_operator(command, a.op);
+  command->footer(
+      "Examples:\n"
+      "  faultsim export-contact my-field.json --step 10 -o step10.hdf5\n"
+      "  faultsim export-contact my-field.json --step 10 --freeze-strength -o step10.hdf5\n"
+      "Runs the scene up to the step before, and writes u = W r + q, friction coefficients and\n"
+      "our solution. The step must have no cohesion; see docs/contact-export.md.");
 }
 
 }  // namespace faultsim

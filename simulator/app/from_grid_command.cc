@@ -4,7 +4,7 @@
 #include <optional>
 #include <tuple>
 
-#include "simulator/app/commands.h"
+#include "simulator/app/program.h"
 #include "simulator/common/input_file.h"
 #include "simulator/common/printable.h"
 #include "simulator/common/ranges.h"
@@ -212,10 +212,83 @@ class FromGrid {
   std::vector<Problem> problems_;
 };
 
+/// What is read and written.
+void add_grid_files(CLI::App* command, FromGridArguments& a) {
+  command->add_option("grid", a.grid, "CASE.EGRID")->required();
+  command->add_option("--init", a.init, "CASE.INIT (default: the one beside the grid)");
+  command->add_option("--restart", a.restart,
+                      "CASE.UNRST or CASE.X0001 (default: those beside the grid)");
+  command->add_option("-o,--output", a.output, "the scene; its tables are written beside it")
+      ->required();
+  command->add_flag("--force", a.force, "replace files that are there");
+  command->add_option("--layers", a.layers,
+                      "CSV of rock: name, top [m], density [kg/m3], youngs_modulus [GPa],\n"
+                      "poisson_ratio, from the surface down; one is called reservoir");
+}
+
+/// How large the model is, and how fine.
+void add_sizes(CLI::App* command, FromGridArguments& a) {
+  command
+      ->add_option("--every-layer", a.every_layer,
+                   "also the top of every so many layers of the grid (default: none)")
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--least-layer", a.least_layer,
+                      "thickness of the model's layers (default: a fifth of a cell at faults)");
+  command->add_option("--overshoot", a.overshoot,
+                      "of faults above and below the reservoir (default \"150 m\")");
+  command->add_option("--margin", a.margin,
+                      "beside the active map (default: twice the depth, 5 km at least)");
+  command->add_option("--base", a.base, "depth of the model (default: twice the reservoir's)");
+  command->add_option("--strike", a.strike,
+                      "size of cells at faults (default: half the grid's, or by --tetrahedra)");
+  command->add_option("--tetrahedra", a.tetrahedra, "about how many (default 100000)")
+      ->check(CLI::Range(1e3, 1e8));
+}
+
+/// What of the grid is a fault, and what a compartment.
+void add_recognition(CLI::App* command, FromGridArguments& a) {
+  command->add_option("--least-offset", a.least_offset,
+                      "smaller steps between columns are no fault (default \"20 ft\")");
+  command->add_option("--fewest-edges", a.fewest_edges, "of the grid, of a fault (default 3)")
+      ->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--straightening", a.straightening,
+                   "cells that traces may leave the grid's edges (default 0.5)")
+      ->check(CLI::Range(0.01, 10.0));
+  command->add_option("--reference-depth", a.reference_depth,
+                      "where traces are drawn (default: the reservoir's top beside faults)");
+  command->add_flag("--faults-by-connections", a.faults_by_connections,
+                    "non-neighbour connections make a fault at smaller steps");
+  command->add_flag("--no-bridges", a.no_bridges, "smaller steps between two tips join nothing");
+  command->add_flag("--extend-faults", a.extend_faults,
+                    "compartments are parted beyond tips, on to the next fault or edge");
+  command
+      ->add_option("--compartments", a.compartments,
+                   "what bounds them: faults (default), EQLNUM, FIPNUM")
+      ->check(CLI::IsMember({"faults", "EQLNUM", "FIPNUM"}));
+}
+
 }  // namespace
 
 ExitCode init_from_grid_command(const FromGridArguments& arguments) {
   return FromGrid(arguments).run();
+}
+
+void add_from_grid(Program& program, CLI::App* init) {
+  auto [command, a] =
+      program.add("from-grid", "a scene of a flow grid: horizons, faults, compartments, pressures",
+                  init_from_grid_command, init);
+  add_grid_files(command, a);
+  add_sizes(command, a);
+  add_recognition(command, a);
+  command->footer(
+      "Examples:\n"
+      "  faultsim init from-grid FIELD.EGRID -o field.json\n"
+      "  faultsim init from-grid FIELD.EGRID --layers rock.csv --least-offset \"10 m\" -o "
+      "field.json\n"
+      "Everything that was recognised, left out and chosen is printed, each with the option or "
+      "the\n"
+      "key of the scene that changes it; docs/your-field.md goes on from there.");
 }
 
 }  // namespace faultsim

@@ -2,8 +2,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
+#include "simulator/app/program.h"
 #include "simulator/app/screen.h"
 #include "simulator/cache/influence_file.h"
 #include "simulator/common/ranges.h"
@@ -105,6 +105,26 @@ ExitCode influence_command(const InfluenceArguments& arguments) {
   write_influence(*made.block, *made.op, arguments.output);
   report(arguments, made);
   return ExitCode::done;
+}
+
+void add_influence(Program& program) {
+  auto [command, a] =
+      program.add("influence", "what a pressure change in each reservoir cell does to the faults",
+                  influence_command);
+  add_scene(command, a.scene);
+  command->add_option("-o,--output", a.output, "HDF5 file to write")->required();
+  command
+      ->add_option("--region", a.regions,
+                   "a compartment whose cells are wanted; may be repeated (default: all)")
+      ->allow_extra_args(false);
+  add_operator(command, a.op);
+  command->footer(
+      "Examples:\n"
+      "  faultsim influence my-field.json -o influence.h5\n"
+      "  faultsim influence my-field.json --region west --region east -o both.h5 --json\n"
+      "With Biot coefficient b and a pressure change per cell, traction^T (b dp) is the change of "
+      "the\n"
+      "locked effective traction on every fault node: see docs/commands.md, influence.");
 }
 
 }  // namespace faultsim

@@ -1,10 +1,11 @@
 #include <optional>
 
-#include "simulator/app/commands.h"
+#include "simulator/app/program.h"
 #include "simulator/case_figures/case_figures.h"
 #include "simulator/case_figures/picture_file.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
+#include "simulator/common/version.h"
 #include "simulator/documents/json_document.h"
 #include "simulator/page/run_page.h"
 #include "simulator/reading/read_scene.h"
@@ -13,6 +14,21 @@
 
 namespace faultsim {
 namespace {
+
+struct PlotArguments {
+  std::string chart;             ///< a name of case_charts().
+  std::string result;            ///< folder that `run` wrote.
+  std::filesystem::path output;  ///< .svg or .png.
+  std::string fault;             ///< "" = the most critical one.
+  std::optional<int> step;       ///< load step; none = the most critical one.
+  std::string show = "chi";      ///< of a fault map: a word of MapField.
+  std::string before;            ///< folder of another run, drawn as thin lines; "" = none.
+};
+
+struct ReportArguments {
+  std::string result;            ///< folder that `run` wrote.
+  std::filesystem::path output;  ///< .html.
+};
 
 const CaseChartInfo& chart_named(const std::string& name) {
   if (const CaseChartInfo* info = case_chart_named(name)) return *info;
@@ -58,8 +74,6 @@ class StoredRun {
   std::optional<FieldReader> fields_;
 };
 
-}  // namespace
-
 ExitCode plot_command(const PlotArguments& arguments) {
   const CaseChartInfo& info = chart_named(arguments.chart);
   const MapField show = field_shown("--show", arguments.show);
@@ -86,8 +100,45 @@ ExitCode plot_command(const PlotArguments& arguments) {
 ExitCode report_command(const ReportArguments& arguments) {
   const StoredRun run(arguments.result, "result");
   require_picture_file(arguments.output, {".html"}, run.files());
-  write_picture(arguments.output, run_page(run.picture(), run.scene_text(), arguments.program));
+  write_picture(arguments.output,
+                run_page(run.picture(), run.scene_text(), version_text("faultsim")));
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_plot(Program& program) {
+  auto [command, a] = program.add("plot", "draw a chart of a result as SVG or PNG", plot_command);
+  std::string charts = "one of:";
+  for (const CaseChartInfo& info : case_charts()) {
+    charts += concat("\n", info.name, ": ", info.meaning);
+  }
+  command->add_option("chart", a.chart, charts)->required();
+  command->add_option("result", a.result, "folder that run wrote")->required();
+  command->add_option("-o,--output", a.output, "file to write: *.svg, or *.png by rsvg-convert")
+      ->required();
+  command->add_option("--fault", a.fault, "default: the one with the largest χ̄");
+  command->add_option("--step", a.step, "load step; default: that of its largest χ̄");
+  command->add_option("--show", a.show, "of a fault-map: chi (default), slip, state, pressure");
+  command->add_option("--before", a.before,
+                      "another folder that run wrote: its curves as thin lines");
+  command->footer(
+      "Examples:\n"
+      "  faultsim plot history out -o history.svg\n"
+      "  faultsim plot history out --before earlier -o both.svg\n"
+      "  faultsim plot section out --step 10 -o section.svg\n"
+      "  faultsim plot profiles out --fault F2 -o profiles.png");
+}
+
+void add_report(Program& program) {
+  auto [command, a] =
+      program.add("report", "a result as one HTML page that needs no network", report_command);
+  command->add_option("result", a.result, "folder that run wrote")->required();
+  command->add_option("-o,--output", a.output, "file to write: *.html")->required();
+  command->footer(
+      "Examples:\n"
+      "  faultsim report out -o out.html\n"
+      "  faultsim run --from-report out.html -o again    the same scene, with the same bits");
 }
 
 }  // namespace faultsim

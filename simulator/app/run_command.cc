@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
+#include "simulator/app/program.h"
 #include "simulator/app/screen.h"
 #include "simulator/app/together.h"
 #include "simulator/app/trace_text.h"
@@ -258,6 +258,45 @@ ExitCode run_command(const RunArguments& arguments) {
   std::optional<Run> run;
   return together([&](const Ranks& ranks) { run.emplace(arguments, ranks); },
                   [&] { return run->walk(); });
+}
+
+void add_run(Program& program) {
+  auto [command, a] = program.add("run", "run a scene", run_command);
+  CLI::Option* scene = add_scene(command, a.scene);
+  command
+      ->add_option_function<std::string>(
+          "--from-report",
+          [&file = a.scene.file, scene](const std::string& page) {
+            file = page;
+            scene->required(false);
+          },
+          "the scene of a page that report wrote, in place of a scene file")
+      ->type_name("PAGE")
+      ->excludes(scene)
+      ->trigger_on_parse();
+  command->add_option("-o,--output", a.output, "result folder (default SCENE-result)");
+  add_operator(command, a.op, kBuildingAndCase);
+  command->add_flag("--wide", a.wide, "the table with all its columns, however wide");
+  command->add_flag("--trace", a.trace,
+                    "how each load step was solved, iteration by iteration; also in trace.jsonl");
+  command->add_flag("--exact", a.exact,
+                    "the exact operator where the scene asks for a surface (/numerics/surface)");
+  command
+      ->add_option("--path", a.path,
+                   "condensed (default); coupled: no operator, both sides of the faults and\n"
+                   "multipliers; automatic: condensed where it fits into memory")
+      ->check(CLI::IsMember({"condensed", "coupled", "automatic"}));
+  command->add_option("--leading", a.leading,
+                      "coupled path, for K + E: exact,fsai,ic,ilu,amg,amg-u (default amg-u)");
+  command->add_option("--schur", a.schur,
+                      "coupled path: exact,fsai+dir,fsai+fsai,bds,lsc,rac (default rac)");
+  command->footer(
+      "Examples:\n"
+      "  faultsim run my-field.json -o out\n"
+      "  faultsim run my-field.json --tier screening --set offset_east=\"150 m\" -o offset-150\n"
+      "  mpirun -n 4 faultsim run my-field.json --path coupled -o out\n"
+      "The folder holds one run: an earlier one is replaced when the new one is complete. Open\n"
+      "out/faults.xmf in ParaView; see docs/commands.md.");
 }
 
 }  // namespace faultsim

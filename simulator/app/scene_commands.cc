@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "simulator/app/commands.h"
 #include "simulator/app/load_scene.h"
+#include "simulator/app/program.h"
 #include "simulator/app/screen.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/json_text.h"
@@ -17,6 +17,16 @@
 
 namespace faultsim {
 namespace {
+
+struct InitArguments {
+  std::string kind = "field";  ///< or box.
+  std::string file;            ///< "" = KIND.json.
+};
+
+struct MeshArguments {
+  SceneArguments scene;
+  std::string output;  ///< folder; "" = the mesh is not written.
+};
 
 /// Which part of the scene a pointer leads into: 'block "east"'; "" where it is none with a name.
 std::string owner_of(const nlohmann::json& document, const std::string& pointer) {
@@ -46,14 +56,14 @@ void add_remarks(const FieldCheck& fields, LoadedScene& loaded) {
                               fields.remarks.end());
 }
 
-}  // namespace
-
-ExitCode init_command(const std::string& kind, const std::filesystem::path& file) {
+ExitCode init_command(const InitArguments& arguments) {
+  const std::filesystem::path file =
+      arguments.file.empty() ? arguments.kind + ".json" : arguments.file;
   if (std::filesystem::exists(file)) {
     throw InputError(file.string(), "the file exists already", "choose another name");
   }
   require_writable_file("file", file, FileKind::json, {});
-  write_text(file, starter_scene(kind));
+  write_text(file, starter_scene(arguments.kind));
   std::cerr << "wrote " << file.string() << "\nnext: faultsim plan " << file.string()
             << "   or   faultsim run " << file.string() << "\n";
   return ExitCode::done;
@@ -142,8 +152,9 @@ ExitCode parameters_command(const SceneArguments& arguments) {
   return ExitCode::done;
 }
 
-ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::path& output) {
-  const LoadedScene loaded = load_scene(arguments);
+ExitCode mesh_command(const MeshArguments& arguments) {
+  const LoadedScene loaded = load_scene(arguments.scene);
+  const std::filesystem::path output = arguments.output;
   std::optional<ResultFolder> folder;
   if (!output.empty()) {
     folder.emplace(ResultFolder::Request{.option = "-o",
@@ -156,7 +167,7 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
   const MeshQuality quality = check_quality(problem.mesh);
   std::size_t n_pairs = 0;
   for (const FaultSurface& fault : problem.mesh.faults) n_pairs += fault.nodes.size();
-  if (arguments.json) {
+  if (arguments.scene.json) {
     std::cout << json_text(nlohmann::json{{"n_nodes", problem.mesh.nodes.size()},
                                           {"n_cells", problem.mesh.cells.size()},
                                           {"n_fault_node_pairs", n_pairs},
@@ -178,6 +189,56 @@ ExitCode mesh_command(const SceneArguments& arguments, const std::filesystem::pa
     std::cerr << "wrote " << (output / "volume.xmf").string() << " (open it in ParaView)\n";
   }
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_init(Program& program) {
+  auto [command, a] =
+      program.add("init", "write a starter scene, or one of a flow grid", init_command);
+  command->add_option("kind", a.kind, "field or box")->check(CLI::IsMember({"field", "box"}));
+  command->add_option("file", a.file, "where to write it (default KIND.json)");
+  command->footer(
+      "Examples:\n"
+      "  faultsim init field my-field.json    two blocks and three faults between layers\n"
+      "  faultsim init box slider.json        a box with patches of fault, for tests of the model\n"
+      "  faultsim init from-grid FIELD.EGRID -o field.json");
+  add_from_grid(program, command);
+}
+
+void add_looking(Program& program) {
+  auto [validate, validated] =
+      program.add("validate", "check a scene and list all its problems", validate_command);
+  add_scene(validate, validated);
+  validate->footer(
+      "Examples:\n"
+      "  faultsim validate my-field.json\n"
+      "  faultsim validate my-field.json --set friction_angle=\"20 deg\" --json");
+
+  auto [plan, planned] =
+      program.add("plan", "what will be modelled and why, sizes and cost", plan_command);
+  add_scene(plan, planned);
+  plan->footer(
+      "Examples:\n"
+      "  faultsim plan my-field.json --tier standard\n"
+      "  faultsim plan my-field.json --set /numerics/half_domain=off --json");
+
+  auto [parameters, varied] =
+      program.add("parameters", "what can be varied, with aliases and ranges", parameters_command);
+  add_scene(parameters, varied);
+  parameters->footer(
+      "Examples:\n"
+      "  faultsim parameters my-field.json | grep east     what the block \"east\" has\n"
+      "  faultsim parameters my-field.json --json          with units and descriptions");
+
+  auto [mesh, a] =
+      program.add("mesh", "make the mesh, report its quality, write it for ParaView", mesh_command);
+  add_scene(mesh, a.scene);
+  mesh->add_option("-o,--output", a.output, "folder for volume.h5 and volume.xmf");
+  mesh->footer(
+      "Examples:\n"
+      "  faultsim mesh my-field.json --tier screening\n"
+      "  faultsim mesh my-field.json -o mesh               then open mesh/volume.xmf");
 }
 
 }  // namespace faultsim

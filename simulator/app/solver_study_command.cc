@@ -3,9 +3,9 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "simulator/app/commands.h"
 #include "simulator/app/export_study.h"
 #include "simulator/app/load_scene.h"
+#include "simulator/app/program.h"
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
 #include "simulator/coupled/box_study.h"
@@ -18,6 +18,19 @@
 
 namespace faultsim {
 namespace {
+
+struct SolverStudyArguments {
+  SceneArguments scene;  ///< studied instead of the cases where it has a file.
+  std::vector<std::string> cases = {"box"}, stages = {"stick"};  ///< StudyCase, FaultStage, "all".
+  std::vector<std::string> cell_sizes = {"1/2", "1/4"};          ///< h of the box, "1/8".
+  std::vector<std::string> leading = {"exact"}, schur = {"fsai+dir", "bds", "lsc"};  ///< or "all".
+  std::string form = "upper";
+  int fsai_steps = 0, fsai_step_size = 0;  ///< 0 = as FsaiOptions.
+  double fsai_tolerance = 0;
+  int max_iterations = 500;
+  std::filesystem::path export_to;  ///< folder for the systems; empty = they are solved.
+  bool json = false;
+};
 
 /// A body to be studied, and how it is called.
 struct StudyBody {
@@ -197,8 +210,6 @@ void study_system(const Study& todo, const TwoSidedBulk& bulk, const SaddlePoint
   }
 }
 
-}  // namespace
-
 ExitCode solver_study_command(const SolverStudyArguments& arguments) {
   const Study todo = read_study(arguments);
   set_blas_threads(1);
@@ -221,6 +232,73 @@ ExitCode solver_study_command(const SolverStudyArguments& arguments) {
   }
   if (arguments.json) std::cout << json_text(nlohmann::ordered_json{{"rows", rows}});
   return ExitCode::done;
+}
+
+/// What is solved.
+void add_systems(CLI::App* command, SolverStudyArguments& a) {
+  CLI::Option* scene = command->add_option(
+      "--scene", a.scene.file, "a scene's own body instead: its mesh, materials and holds");
+  add_changes(command, a.scene);
+  command->get_option("--set")->needs(scene);
+  command->get_option("--tier")->needs(scene);
+  command
+      ->add_option("--case", a.cases,
+                   "box (default), or stand-ins: 15-cuts,field-a,field-b,field-c; or all")
+      ->delimiter(',')
+      ->excludes(scene);
+  command
+      ->add_option("--stage", a.stages,
+                   "how nodes stand, of stick,slip,open or all: a history (default stick)")
+      ->delimiter(',');
+  command
+      ->add_option("--h", a.cell_sizes,
+                   "cell sizes of the box: 1/2,1/4,1/8,1/16 … (default 1/2,1/4)")
+      ->delimiter(',')
+      ->excludes(scene);
+}
+
+/// By what.
+void add_solvers(CLI::App* command, SolverStudyArguments& a) {
+  command
+      ->add_option("--leading", a.leading,
+                   "for K + E: exact,fsai,ic,ilu,amg,amg-u or all (default exact)")
+      ->delimiter(',');
+  command
+      ->add_option("--schur", a.schur,
+                   "for S: exact,fsai+dir,fsai+fsai,bds,lsc,rac or all (default: three)")
+      ->delimiter(',');
+  command->add_option("--form", a.form, "upper (default) or full: two leading solves an iteration")
+      ->check(CLI::IsMember({"full", "upper"}));
+  command->add_option("--fsai-steps", a.fsai_steps, "growth steps of FSAI (default 5)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--fsai-step-size", a.fsai_step_size, "entries per step (default 1)")
+      ->check(CLI::Range(1, 1000));
+  command->add_option("--fsai-tolerance", a.fsai_tolerance, "of a step (default 0.01)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--max-iterations", a.max_iterations, "of GMRES (default 500)")
+      ->check(CLI::Range(1, 100000));
+}
+
+}  // namespace
+
+void add_solver_study(Program& program) {
+  auto [command, a] =
+      program.add("solver-study", "preconditioners of the coupled path on a published cracked box",
+                  solver_study_command);
+  add_systems(command, a);
+  add_solvers(command, a);
+  command->add_option("--export", a.export_to,
+                      "write the systems as PETSc's files into a folder, solve nothing");
+  add_json(command, a.json);
+  command->footer(
+      "Examples:\n"
+      "  faultsim solver-study --h 1/2 --leading all --schur all\n"
+      "  faultsim solver-study --h 1/8 --leading exact,amg --json\n"
+      "  faultsim solver-study --case field-b --stage all --leading amg-u --schur rac\n"
+      "  faultsim solver-study --scene my-field.json --tier standard --leading amg-u --schur rac\n"
+      "Right-preconditioned GMRES without restart on J = [[K + E, C - F], [C^T, 0]];\n"
+      "iterations to 1e-6 and 1e-8 of a random and a physical right-hand side. See\n"
+      "docs/model.md, section 11.");
 }
 
 }  // namespace faultsim

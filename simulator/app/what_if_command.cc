@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "simulator/app/commands.h"
+#include "simulator/app/program.h"
 #include "simulator/app/what_if_reply.h"
 #include "simulator/app/write_all.h"
 #include "simulator/case_figures/case_figures.h"
@@ -174,8 +174,6 @@ class WhatIf {
   ResidentCase resident_;                      ///< the last member: its thread uses the others.
 };
 
-}  // namespace
-
 ExitCode what_if_command(const WorkerArguments& arguments) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // it never outlives the one who asks
   if (getppid() == 1) return ExitCode::interrupted;
@@ -194,6 +192,16 @@ ExitCode what_if_command(const WorkerArguments& arguments) {
   }
   std::free(line);
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_what_if(Program& program) {
+  auto [command, a] = program.add(
+      "what-if", "answer the newest question about a scene (schemas/what_if_protocol.md)",
+      what_if_command);
+  add_descriptors(command, a, kBuildingAndCase);
+  command->footer("Example: faultsim what-if --requests 0 --replies 1 <questions >answers");
 }
 
 }  // namespace faultsim

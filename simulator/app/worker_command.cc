@@ -11,7 +11,7 @@
 #include <string>
 #include <utility>
 
-#include "simulator/app/commands.h"
+#include "simulator/app/program.h"
 #include "simulator/app/request_check.h"
 #include "simulator/app/worker_requests.h"
 #include "simulator/app/write_all.h"
@@ -206,8 +206,6 @@ class Worker {
   std::optional<std::int64_t> held_;    ///< of the one that the simulation holds.
 };
 
-}  // namespace
-
 ExitCode worker_command(const WorkerArguments& arguments) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker never outlives its rank, however that dies
   if (getppid() == 1) return ExitCode::interrupted;  // the parent died before the line above
@@ -222,6 +220,16 @@ ExitCode worker_command(const WorkerArguments& arguments) {
     return ExitCode::input;
   }
   return ExitCode::done;
+}
+
+}  // namespace
+
+void add_worker(Program& program) {
+  auto [command, a] = program.add(
+      "worker", "serve cases to faultsweep (schemas/worker_protocol.md)", worker_command);
+  add_descriptors(command, a, kBuilding);
+  command->add_option("--memory-limit", a.memory_limit, "bytes of private memory");
+  command->footer("Example: faultsim worker --requests 0 --replies 1 <requests >replies");
 }
 
 }  // namespace faultsim
