@@ -233,7 +233,8 @@ void add_sizes(CLI::App* command, FromGridArguments& a) {
                    "also the top of every so many layers of the grid (default: none)")
       ->check(CLI::Range(0, 10000));
   command->add_option("--least-layer", a.least_layer,
-                      "thickness of the model's layers (default: a fifth of a cell at faults)");
+                      "thickness of the model's layers (default: a fifth of a cell at faults,\n"
+                      "or half the reservoir's where that is less)");
   command->add_option("--overshoot", a.overshoot,
                       "of faults above and below the reservoir (default \"150 m\")");
   command->add_option("--margin", a.margin,
