@@ -6,11 +6,47 @@
 
 namespace faultsim::corner_point {
 
+namespace {
+
+constexpr std::array<CornerPlace, 4> kTops = {
+    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
+
+/// The uppermost and the lowest layer of a column with an active cell; none: the first is greater.
+std::array<int, 2> active_layers(const CornerPointGrid& grid, int column) {
+  std::array<int, 2> layers = {0, grid.size[2] - 1};
+  const auto is_active = [&](int k) { return grid.is_active[grid.cell(column, k)] != 0; };
+  while (layers[0] <= layers[1] && !is_active(layers[0])) ++layers[0];
+  while (layers[0] <= layers[1] && !is_active(layers[1])) --layers[1];
+  return layers;
+}
+
+/// The lowest and the highest corner of a column between two layers, m.
+std::array<double, 2> heights_of(const CornerPointGrid& grid, int column,
+                                 const std::array<int, 2>& layers) {
+  std::array<double, 2> heights = {HUGE_VAL, -HUGE_VAL};
+  for (const CornerPlace& top : kTops) {
+    heights[0] = std::min(heights[0], grid.z(column, layers[1], {top.right, top.back, true}));
+    heights[1] = std::max(heights[1], grid.z(column, layers[0], top));
+  }
+  return heights;
+}
+
+/// Whether no cell of a column has its bottom above its top.
+bool is_upright(const CornerPointGrid& grid, int column, const std::array<int, 2>& layers) {
+  for (int k = layers[0]; k <= layers[1]; ++k)
+    for (const CornerPlace& top : kTops)
+      if (grid.z(column, k, {top.right, top.back, true}) > grid.z(column, k, top)) return false;
+  return true;
+}
+
+}  // namespace
+
 ColumnMap::ColumnMap(const CornerPointGrid& grid) : grid_(&grid) {
   double doubled_area = 0;
   for (int column = 0; column < grid.n_columns(); ++column) {
-    is_active_.push_back(grid.has_active_cell(column) ? 1 : 0);
-    if (is_active_.back() == 0) continue;
+    layers_.push_back(active_layers(grid, column));
+    is_inside_.push_back(layers_.back()[0] <= layers_.back()[1] ? 1 : 0);
+    if (is_inside_.back() == 0) continue;
     const auto top = [&](bool right, bool back) {
       return Eigen::Vector2d(grid.pillars[grid.pillar_of(column, {right, back})].top.head<2>());
     };
@@ -19,6 +55,68 @@ ColumnMap::ColumnMap(const CornerPointGrid& grid) : grid_(&grid) {
     doubled_area += across.x() * other.y() - across.y() * other.x();
   }
   is_left_handed_ = doubled_area < 0;
+  take_in_holes();
+}
+
+std::vector<int> ColumnMap::columns_beside(int column) const {
+  const auto [i, j] = grid_->place(column);
+  std::vector<int> all;
+  for (const int other : {column_or_none(i - 1, j), column_or_none(i + 1, j),
+                          column_or_none(i, j - 1), column_or_none(i, j + 1)})
+    if (other >= 0) all.push_back(other);
+  return all;
+}
+
+void ColumnMap::take_in_holes() {
+  constexpr std::size_t kMost = 8;  // what an outline takes in
+  constexpr std::size_t kSides = 4;
+  std::vector<char> is_seen = is_inside_;
+  for (int begin = 0; begin < grid_->n_columns(); ++begin) {
+    if (is_seen[begin] != 0) continue;
+    std::vector<int> hole = {begin}, around;
+    is_seen[begin] = 1;
+    bool is_enclosed = true;
+    for (std::size_t next = 0; next < hole.size(); ++next) {
+      const std::vector<int> beside = columns_beside(hole[next]);
+      is_enclosed = is_enclosed && beside.size() == kSides;
+      for (const int other : beside) {
+        if (is_inside_[other] != 0) {
+          around.push_back(other);
+        } else if (is_seen[other] == 0) {
+          is_seen[other] = 1;
+          hole.push_back(other);
+        }
+      }
+    }
+    if (is_enclosed && hole.size() <= kMost) take_in(hole, around);
+  }
+}
+
+/// If its cells lie where those around it do, give or take their height: inactive ones may be
+/// anywhere.
+void ColumnMap::take_in(const std::vector<int>& hole, const std::vector<int>& around) {
+  std::array<int, 2> layers = layers_[around.front()];
+  for (const int column : around) {
+    layers[0] = std::min(layers[0], layers_[column][0]);
+    layers[1] = std::max(layers[1], layers_[column][1]);
+  }
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const int column : around) {
+    const std::array<double, 2> heights = heights_of(*grid_, column, layers_[column]);
+    low = std::min(low, heights[0]);
+    high = std::max(high, heights[1]);
+  }
+  const double give = high - low;
+  const bool is_rock = std::ranges::all_of(hole, [&](int column) {
+    const std::array<double, 2> heights = heights_of(*grid_, column, layers);
+    return heights[0] >= low - give && heights[1] <= high + give &&
+           is_upright(*grid_, column, layers);
+  });
+  if (!is_rock) return;
+  for (const int column : hole) {
+    layers_[column] = layers;
+    is_inside_[column] = 1;
+  }
 }
 
 int ColumnMap::column_or_none(int i, int j) const {
@@ -76,7 +174,7 @@ std::vector<int> ColumnMap::neighbours(int pillar) const {
 
 bool ColumnMap::is_at_edge(int pillar) const {
   return std::ranges::any_of(columns_around(pillar),
-                             [&](int column) { return !is_active(column); });
+                             [&](int column) { return !is_inside(column); });
 }
 
 CornerPlace ColumnMap::corner_at(int column, int pillar) const {
@@ -84,22 +182,12 @@ CornerPlace ColumnMap::corner_at(int column, int pillar) const {
   return {on[0] > at[0], on[1] > at[1], false};
 }
 
-int ColumnMap::top_layer(int column) const {
-  int k = 0;
-  while (grid_->is_active[grid_->cell(column, k)] == 0) ++k;
-  return k;
-}
-
-int ColumnMap::base_layer(int column) const {
-  int k = grid_->size[2] - 1;
-  while (grid_->is_active[grid_->cell(column, k)] == 0) --k;
-  return k;
-}
-
 std::vector<int> ColumnMap::layers_to_compare(int left, int right) const {
   std::vector<int> all, both;
   for (int k = 0; k < grid_->size[2]; ++k) {
-    all.push_back(k);
+    if (k >= std::max(top_layer(left), top_layer(right)) &&
+        k <= std::min(base_layer(left), base_layer(right)))
+      all.push_back(k);
     if (grid_->is_active[grid_->cell(left, k)] != 0 && grid_->is_active[grid_->cell(right, k)] != 0)
       both.push_back(k);
   }

@@ -21,7 +21,7 @@ std::vector<int> parts_of_map(const ColumnMap& map, const std::set<int>& barrier
     const std::array<int, 2> next = {at[0] + 1 < grid.size[0] ? column + 1 : -1,
                                      at[1] + 1 < grid.size[1] ? column + grid.size[0] : -1};
     for (const int other : next) {
-      if (!map.is_active(column) || !map.is_active(other)) continue;
+      if (!map.is_inside(column) || !map.is_inside(other)) continue;
       if (!barriers.contains(map.edge_between_columns(column, other))) sets.join(column, other);
     }
   }

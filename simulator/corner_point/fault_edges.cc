@@ -59,7 +59,7 @@ SteppingEdges find_stepping_edges(const ColumnMap& map, const StructureOptions& 
     for (const int next : map.neighbours(pillar)) {
       if (next < pillar) continue;
       const std::array<int, 2> columns = map.sides(pillar, next);
-      if (!map.is_active(columns[0]) || !map.is_active(columns[1])) continue;
+      if (!map.is_inside(columns[0]) || !map.is_inside(columns[1])) continue;
       const FaultEdge edge = map.measured(pillar, next);
       if (edge.largest() < options.negligible_offset) continue;
       const bool is_faulted =

@@ -156,7 +156,7 @@ class Extension {
     for (const int next : map_.neighbours(pillar)) {
       const std::array<int, 2> columns = map_.sides(pillar, next);
       const bool goes_on = (at(next) - at(pillar)).dot(direction) > 0;
-      if (!goes_on || !map_.is_active(columns[0]) || !map_.is_active(columns[1])) continue;
+      if (!goes_on || !map_.is_inside(columns[0]) || !map_.is_inside(columns[1])) continue;
       // The middle of the edge, as of a trace.
       const Eigen::Vector2d middle = (at(next) + at(pillar)) / 2;
       const double distance = std::abs(cross_product(direction, middle - begin));

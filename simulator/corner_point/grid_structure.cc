@@ -64,8 +64,11 @@ class StructureFinder {
  private:
   void count() {
     found_.n_active_cells = static_cast<int>(std::ranges::count(grid_.is_active, 1));
-    for (int column = 0; column < grid_.n_columns(); ++column)
-      found_.n_active_columns += map_.is_active(column) ? 1 : 0;
+    for (int column = 0; column < grid_.n_columns(); ++column) {
+      const bool is_active = grid_.has_active_cell(column);
+      found_.n_active_columns += is_active ? 1 : 0;
+      found_.n_hole_columns += map_.is_inside(column) && !is_active ? 1 : 0;
+    }
     found_.layers = find_layers(map_, options_.no_thickness);
     for (const Layer& layer : found_.layers) found_.n_collapsed_cells += layer.n_collapsed;
   }
@@ -84,7 +87,7 @@ class StructureFinder {
       }
     }
     for (int column = 0; n == 0 && column < grid_.n_columns(); ++column) {
-      if (map_.is_active(column)) add(column, grid_.pillar_of(column, {}));
+      if (map_.is_inside(column)) add(column, grid_.pillar_of(column, {}));
     }
     return sum / n;
   }

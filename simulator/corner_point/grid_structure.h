@@ -194,7 +194,8 @@ struct GridStructure {
   std::vector<int> compartment_of_cell;   ///< per cell; −1: inactive.
   std::vector<LeftOut> left_out;          ///< by falling offset.
   int n_active_cells = 0, n_active_columns = 0, n_collapsed_cells = 0;
-  int n_bridged = 0;  ///< pillar edges of faults below least_offset (bridge_gaps).
+  int n_hole_columns = 0;  ///< inactive ones that the reservoir encloses (ColumnMap).
+  int n_bridged = 0;       ///< pillar edges of faults below least_offset (bridge_gaps).
   int n_connections = 0, n_connections_on_faults = 0;  ///< between cells that are no neighbours.
   double largest_gap = 0;  ///< m, between a layer's bottom and the next one's top.
   std::vector<StructureRemark> report;

@@ -10,11 +10,11 @@ constexpr std::array<CornerPlace, 4> kCorners = {
     {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
 
 /// Columns around a pillar by the side of the faults there: the same number for those that are
-/// joined without crossing a barrier. Inactive ones have −1.
+/// joined without crossing a barrier. Those outside have −1.
 std::array<int, 4> sides_around(const ColumnMap& map, const std::set<int>& barriers, int pillar) {
   const std::array<int, 4> columns = map.columns_around(pillar);
   std::array<int, 4> side;
-  for (int c = 0; c < 4; ++c) side[c] = map.is_active(columns[c]) ? c : -1;
+  for (int c = 0; c < 4; ++c) side[c] = map.is_inside(columns[c]) ? c : -1;
   for (int c = 0; c < 4; ++c) {
     const int next = (c + 1) % 4;
     if (side[c] < 0 || side[next] < 0) continue;
@@ -43,7 +43,7 @@ class HorizonFinder {
   double largest_gap_below(int k) const {
     double largest = 0;
     for (int column = 0; column < grid_.n_columns(); ++column) {
-      if (!map_.is_active(column)) continue;
+      if (!grid_.has_active_cell(column)) continue;
       for (const CornerPlace& top : kCorners) {
         const double bottom = grid_.z(column, k, {top.right, top.back, true});
         largest = std::max(largest, std::abs(bottom - grid_.z(column, k + 1, top)));
@@ -83,7 +83,7 @@ class HorizonFinder {
     std::array<Group, 4> groups;  // those behind the last are empty
     for (int c = 0; c < 4; ++c) {
       const int side = sides_[pillar][c];
-      if (side < 0) continue;
+      if (side < 0 || !grid_.has_active_cell(columns[c])) continue;
       const int compartment = compartment_at(columns[c], horizon.layer);
       Group& group = *std::ranges::find_if(groups, [&](const Group& of) {
         return of.n == 0 || (of.side == side && of.compartment == compartment);
@@ -133,7 +133,7 @@ std::vector<Layer> find_layers(const ColumnMap& map, double no_thickness) {
     for (int column = 0; column < grid.n_columns(); ++column) {
       const bool is_thin = grid.largest_thickness(column, k) < no_thickness;
       layer.n_collapsed += is_thin ? 1 : 0;
-      if (!map.is_active(column)) continue;
+      if (!grid.has_active_cell(column)) continue;
       layer.is_collapsed = layer.is_collapsed && is_thin;
       const bool is_active = grid.is_active[grid.cell(column, k)] != 0;
       (is_active ? layer.n_active : layer.n_inactive) += 1;

@@ -50,6 +50,10 @@ class ReportWriter {
       add(RemarkKind::left_out,
           counted(n_inactive, "inactive cell", "inactive cells") +
               " in active columns: of no compartment; horizons run through them");
+    if (found_.n_hole_columns > 0)
+      add(RemarkKind::choice,
+          counted(found_.n_hole_columns, "inactive column", "inactive columns") +
+              " that active ones enclose: faults and horizons run through");
     if (found_.n_collapsed_cells > 0) say_collapsed();
     if (found_.largest_gap > options_.no_thickness)
       add(RemarkKind::warning,

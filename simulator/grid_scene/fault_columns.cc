@@ -4,19 +4,8 @@ namespace faultsim::grid_scene {
 namespace {
 
 using corner_point::ColumnMap;
-using corner_point::CornerPointGrid;
 
 constexpr int kFar = 6;  // columns from a fault
-
-std::vector<int> columns_beside(const CornerPointGrid& grid, int column) {
-  const auto [i, j] = grid.place(column);
-  std::vector<int> beside;
-  if (i > 0) beside.push_back(column - 1);
-  if (i + 1 < grid.size[0]) beside.push_back(column + 1);
-  if (j > 0) beside.push_back(column - grid.size[0]);
-  if (j + 1 < grid.size[1]) beside.push_back(column + grid.size[0]);
-  return beside;
-}
 
 /// How many columns lie between each column and one side of a fault, as others are gone through
 /// without crossing barriers; more than kFar: far.
@@ -32,8 +21,8 @@ std::vector<int> steps_from(const ColumnMap& map, const std::set<int>& barriers,
   for (std::size_t next = 0; next < queue.size(); ++next) {
     const int column = queue[next];
     if (steps[column] == kFar) continue;
-    for (const int other : columns_beside(map.grid(), column)) {
-      if (!map.is_active(other) || steps[other] <= kFar) continue;
+    for (const int other : map.columns_beside(column)) {
+      if (!map.is_inside(other) || steps[other] <= kFar) continue;
       if (barriers.contains(map.edge_between_columns(column, other))) continue;
       steps[other] = steps[column] + 1;
       queue.push_back(other);

@@ -27,7 +27,7 @@ double median_cell(const corner_point::ColumnMap& map) {
   std::vector<double> sides;
   const corner_point::CornerPointGrid& grid = map.grid();
   for (int column = 0; column < grid.n_columns(); ++column) {
-    if (!map.is_active(column)) continue;
+    if (!map.is_inside(column)) continue;
     const int k = map.top_layer(column);
     const Eigen::Vector3d at = grid.corner(column, k, {});
     const double along = (grid.corner(column, k, {true, false, false}) - at).head<2>().norm(),

@@ -118,7 +118,7 @@ void LineMaker::take_box() {
   double lowest = 0;
   Vector2d low = Vector2d::Constant(1e300), high = -low;
   for (int column = 0; column < grid_.n_columns(); ++column) {
-    if (!map_.is_active(column)) continue;
+    if (!map_.is_inside(column)) continue;
     for (const bool right : {false, true}) {
       for (const bool back : {false, true}) {
         const Eigen::Vector3d at =

@@ -23,9 +23,11 @@ using Eigen::Vector2d;
 class SmoothMask {
  public:
   explicit SmoothMask(const ColumnMap& map) : size_(map.grid().size) {
-    for (int column = 0; column < map.grid().n_columns(); ++column)
-      is_in_.push_back(map.is_active(column) ? 1 : 0);
-    const std::vector<char> before = is_in_;
+    std::vector<char> before;
+    for (int column = 0; column < map.grid().n_columns(); ++column) {
+      is_in_.push_back(map.is_inside(column) ? 1 : 0);
+      before.push_back(map.grid().has_active_cell(column) ? 1 : 0);
+    }
     constexpr int kRounds = 20;
     bool has_changed = true;
     for (int round = 0; round < kRounds && has_changed; ++round) has_changed = smooth();
@@ -147,7 +149,7 @@ Vector2d place_of(const ColumnMap& map, int pillar, double reference_z) {
   double sum = 0;
   int n = 0;
   for (const int column : map.columns_around(pillar)) {
-    if (!map.is_active(column)) continue;
+    if (!map.is_inside(column)) continue;
     corner_point::CornerPlace corner = map.corner_at(column, pillar);
     sum += map.grid().z(column, map.top_layer(column), corner);
     corner.bottom = true;

@@ -125,7 +125,7 @@ std::vector<PlaceInSection> SectionPicture::crossed(int column, bool bottom) con
 
 void SectionPicture::gather_columns() {
   for (int column = 0; column < grid_.n_columns(); ++column) {
-    if (!map_.is_active(column)) continue;
+    if (!map_.is_inside(column)) continue;
     const std::vector<PlaceInSection> top = crossed(column, false), base = crossed(column, true);
     const auto is_shown = [&](const std::vector<PlaceInSection>& places) {
       return std::ranges::all_of(

@@ -143,14 +143,14 @@ void SurfaceMaker::add_groups(int pillar, const std::set<int>& barriers,
   std::array<int, 4> set = {0, 1, 2, 3};
   for (int c = 0; c < 4; ++c) {
     const int next = (c + 1) % 4;
-    if (!map_.is_active(around[c]) || !map_.is_active(around[next])) continue;
+    if (!map_.is_inside(around[c]) || !map_.is_inside(around[next])) continue;
     if (barriers.contains(map_.edge_between_columns(around[c], around[next]))) continue;
     std::ranges::replace(set, std::max(set[c], set[next]), std::min(set[c], set[next]));
   }
   for (int s = 0; s < 4; ++s) {
     Group group{.pillar = pillar, .columns = {}, .side = {}, .is_on_it = {}};
     for (int c = 0; c < 4; ++c) {
-      if (set[c] == s && map_.is_active(around[c])) group.columns.push_back(around[c]);
+      if (set[c] == s && map_.is_inside(around[c])) group.columns.push_back(around[c]);
     }
     if (group.columns.empty()) continue;
     for (const std::vector<int>& side : sides)

@@ -276,6 +276,35 @@ TEST(GridStructure, LeavesInactiveColumnsOut) {
   EXPECT_THAT(text_of(found), HasSubstr("1 inactive cell in active columns"));
 }
 
+/// Two columns beside the fault and two on its other side, which the others enclose.
+TEST(GridStructure, FaultsGoOnThroughHoles) {
+  MadeGrid grid = with_straight_fault();
+  const GridStructure whole = recognise_structure(made(grid), {});
+  grid.inactive = {{6, 5, -1}, {6, 9, -1}, {7, 5, -1}, {7, 10, -1}};
+  const GridStructure found = recognise_structure(made(grid), {});
+  ASSERT_EQ(found.faults.size(), 1u) << text_of(found);
+  EXPECT_EQ(found.faults[0].edges.size(), whole.faults[0].edges.size());
+  EXPECT_NEAR(found.faults[0].largest_offset, whole.faults[0].largest_offset, 1e-9);
+  EXPECT_EQ(found.compartments.size(), 2u);
+  EXPECT_EQ(found.n_active_columns, 316);
+  EXPECT_EQ(found.n_hole_columns, 4);
+  EXPECT_THAT(text_of(found), HasSubstr("4 inactive columns that active ones enclose"));
+}
+
+/// Nobody says where inactive cells lie.
+TEST(GridStructure, HolesWhoseCellsLieElsewhereAreNone) {
+  MadeGrid grid = with_straight_fault();
+  grid.inactive = {{6, 5, -1}};
+  CornerPointGrid broken = made(grid);
+  for (int k = 0; k < 3; ++k)
+    for (const bool right : {false, true})
+      for (const bool back : {false, true})
+        for (const bool bottom : {false, true})
+          broken.corner_z[broken.corner_index(broken.column(6, 5), k, {right, back, bottom})] = 0;
+  const GridStructure found = recognise_structure(broken, {});
+  EXPECT_EQ(found.n_hole_columns, 0);
+}
+
 /// Of the offset counts what both sides have: an inactive layer that lies elsewhere says nothing.
 TEST(GridStructure, ComparesLayersThatAreActiveOnBothSides) {
   MadeGrid grid = with_straight_fault();

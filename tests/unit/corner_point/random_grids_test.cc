@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <iterator>
@@ -44,13 +45,34 @@ double step_between(const CornerPointGrid& grid, int column, int other, bool is_
   return has_both ? largest : any;
 }
 
+/// Columns with an active cell, and those that inactive ones do not join to the edge of the grid.
+std::vector<bool> inside(const CornerPointGrid& grid) {
+  std::vector<bool> is_inside(static_cast<std::size_t>(grid.n_columns()), true);
+  std::vector<std::array<int, 2>> queue;
+  for (int i = 0; i < grid.size[0]; ++i) queue.insert(queue.end(), {{i, 0}, {i, grid.size[1] - 1}});
+  for (int j = 0; j < grid.size[1]; ++j) queue.insert(queue.end(), {{0, j}, {grid.size[0] - 1, j}});
+  while (!queue.empty()) {
+    const auto [i, j] = queue.back();
+    queue.pop_back();
+    if (i < 0 || j < 0 || i >= grid.size[0] || j >= grid.size[1]) continue;
+    const int column = grid.column(i, j);
+    if (grid.has_active_cell(column) || !is_inside[static_cast<std::size_t>(column)]) continue;
+    is_inside[static_cast<std::size_t>(column)] = false;
+    queue.insert(queue.end(), {{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}});
+  }
+  return is_inside;
+}
+
 Columns stepping(const CornerPointGrid& grid, double least, double below) {
   Columns all;
+  const std::vector<bool> is_inside = inside(grid);
   for (int j = 0; j < grid.size[1]; ++j) {
     for (int i = 0; i < grid.size[0]; ++i) {
       const int column = grid.column(i, j);
       const auto look_at = [&](int other, bool is_along_i) {
-        if (!grid.has_active_cell(column) || !grid.has_active_cell(other)) return;
+        if (!is_inside[static_cast<std::size_t>(column)] ||
+            !is_inside[static_cast<std::size_t>(other)])
+          return;
         const double step = step_between(grid, column, other, is_along_i);
         if (step >= least && step < below) all.insert({column, other});
       };
@@ -81,9 +103,11 @@ int n_left_out(const GridStructure& found, bool small) {
 /// Parts of the map between the faults found, by flooding.
 std::vector<int> flooded(const CornerPointGrid& grid, const Columns& barriers) {
   std::vector<int> part(static_cast<std::size_t>(grid.n_columns()), -1);
+  const std::vector<bool> is_inside = inside(grid);
   int n = 0;
   for (int begin = 0; begin < grid.n_columns(); ++begin) {
-    if (part[static_cast<std::size_t>(begin)] >= 0 || !grid.has_active_cell(begin)) continue;
+    if (part[static_cast<std::size_t>(begin)] >= 0 || !is_inside[static_cast<std::size_t>(begin)])
+      continue;
     std::vector<int> queue = {begin};
     part[static_cast<std::size_t>(begin)] = n;
     while (!queue.empty()) {
@@ -93,7 +117,8 @@ std::vector<int> flooded(const CornerPointGrid& grid, const Columns& barriers) {
       for (const auto& [x, y] : {std::pair{i - 1, j}, {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
         if (x < 0 || y < 0 || x >= grid.size[0] || y >= grid.size[1]) continue;
         const int other = grid.column(x, y);
-        if (!grid.has_active_cell(other) || part[static_cast<std::size_t>(other)] >= 0 ||
+        if (!is_inside[static_cast<std::size_t>(other)] ||
+            part[static_cast<std::size_t>(other)] >= 0 ||
             barriers.contains({std::min(column, other), std::max(column, other)}))
           continue;
         part[static_cast<std::size_t>(other)] = n;

@@ -317,7 +317,7 @@ TEST(Outline, IsWithinHalfACellOfTheActiveMap) {
     const auto [i, j] = cells.place(column);
     const Vector2d middle((i + 0.5) * 100, (j + 0.5) * 80);
     if (nearest_on_line(closed(outlines[0]), middle).distance < 80) continue;
-    n_wrong += is_within(outlines, middle) != map.is_active(column);
+    n_wrong += is_within(outlines, middle) != map.is_inside(column);
   }
   EXPECT_EQ(n_wrong, 0);
 }
