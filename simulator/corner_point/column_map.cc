@@ -183,11 +183,15 @@ CornerPlace ColumnMap::corner_at(int column, int pillar) const {
 }
 
 std::vector<int> ColumnMap::layers_to_compare(int left, int right) const {
+  int first = std::max(top_layer(left), top_layer(right)),
+      last = std::min(base_layer(left), base_layer(right));
+  if (first > last) {
+    first = 0;
+    last = grid_->size[2] - 1;
+  }
   std::vector<int> all, both;
-  for (int k = 0; k < grid_->size[2]; ++k) {
-    if (k >= std::max(top_layer(left), top_layer(right)) &&
-        k <= std::min(base_layer(left), base_layer(right)))
-      all.push_back(k);
+  for (int k = first; k <= last; ++k) {
+    all.push_back(k);
     if (grid_->is_active[grid_->cell(left, k)] != 0 && grid_->is_active[grid_->cell(right, k)] != 0)
       both.push_back(k);
   }

@@ -46,16 +46,15 @@ std::vector<Sums> sums_at(const FlowMapping& mapping, const FlowField& field, in
   return sums;
 }
 
-/// Rock of a compartment, m3.
-double volume_of_ours(const FlowMapping& mapping, std::size_t region) {
-  double volume = 0;
-  for (std::size_t c = 0; c < mapping.part.size(); ++c) {
-    if (mapping.region[c] == static_cast<int>(region)) volume += mapping.part[c];
-  }
+/// Rock of each compartment, m3.
+std::vector<double> volumes_of_ours(const FlowMapping& mapping) {
+  std::vector<double> volume(mapping.flow_cells.size());
+  for (std::size_t c = 0; c < mapping.part.size(); ++c)
+    volume[static_cast<std::size_t>(mapping.region[c])] += mapping.part[c];
   return volume;
 }
 
-/// The same of the flow cells that count with it.
+/// That of the flow cells that count with one.
 double volume_of_theirs(const FlowMapping& mapping, std::size_t region) {
   double volume = 0;
   for (const FlowMapping::Weight& cell : mapping.flow_cells[region]) volume += cell.value;
@@ -91,7 +90,7 @@ std::vector<IntegralBalance> balances(const FlowMapping& mapping,
         {"", 0,
          formatted("the integrals of its change over %s and over the flow cells that count with it "
                    "differ by up to %.3g times the former; it has %.3g m3, they %.3g m3",
-                   region_names[r].c_str(), off / size, volume_of_ours(mapping, r),
+                   region_names[r].c_str(), off / size, volumes_of_ours(mapping)[r],
                    volume_of_theirs(mapping, r)),
          "check where the compartment lies and how thick its layers are; flow cells far from it "
          "count with it too by \"integral\": \"flow_grid\": leave that out where the model is a "
@@ -154,9 +153,7 @@ std::vector<IntegralBalance> keep_integrals(const FlowMapping& mapping, const Fl
     of_report.push_back(
         sums_at(mapping, field, reference, reports[t], change.col(static_cast<Eigen::Index>(t))));
   const std::vector<IntegralBalance> balance = balances(mapping, of_report, region_names);
-  std::vector<double> volume;
-  for (std::size_t r = 0; r < mapping.flow_cells.size(); ++r)
-    volume.push_back(volume_of_ours(mapping, r));
+  const std::vector<double> volume = volumes_of_ours(mapping);
   for (std::size_t t = 0; t < reports.size(); ++t) {
     for (std::size_t c = 0; c < mapping.part.size(); ++c) {
       const auto region = static_cast<std::size_t>(mapping.region[c]);

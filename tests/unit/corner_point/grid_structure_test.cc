@@ -291,18 +291,36 @@ TEST(GridStructure, FaultsGoOnThroughHoles) {
   EXPECT_THAT(text_of(found), HasSubstr("4 inactive columns that active ones enclose"));
 }
 
-/// Nobody says where inactive cells lie.
+/// Nobody says where inactive cells lie: at the surface, or with the bottom above the top.
 TEST(GridStructure, HolesWhoseCellsLieElsewhereAreNone) {
   MadeGrid grid = with_straight_fault();
   grid.inactive = {{6, 5, -1}};
-  CornerPointGrid broken = made(grid);
-  for (int k = 0; k < 3; ++k)
-    for (const bool right : {false, true})
-      for (const bool back : {false, true})
-        for (const bool bottom : {false, true})
-          broken.corner_z[broken.corner_index(broken.column(6, 5), k, {right, back, bottom})] = 0;
-  const GridStructure found = recognise_structure(broken, {});
-  EXPECT_EQ(found.n_hole_columns, 0);
+  const CornerPointGrid whole = made(grid);
+  EXPECT_EQ(recognise_structure(whole, {}).n_hole_columns, 1);
+  for (const bool is_upright : {true, false}) {
+    CornerPointGrid broken = whole;
+    for (int k = 0; k < 3; ++k)
+      for (const bool right : {false, true})
+        for (const bool back : {false, true}) {
+          const std::size_t top = broken.corner_index(broken.column(6, 5), k, {right, back, false}),
+                            base = broken.corner_index(broken.column(6, 5), k, {right, back, true});
+          if (is_upright) broken.corner_z[top] = broken.corner_z[base] = 0;
+          if (!is_upright) std::swap(broken.corner_z[top], broken.corner_z[base]);
+        }
+    EXPECT_EQ(recognise_structure(broken, {}).n_hole_columns, 0) << is_upright;
+  }
+}
+
+/// Neighbours whose active layers have nothing in common are compared in all.
+TEST(GridStructure, ComparesAllLayersWhereNoneIsActiveOnBothSides) {
+  MadeGrid grid = with_straight_fault();
+  for (int j = 0; j < 16; ++j)
+    for (const int k : {1, 2}) grid.inactive.push_back({6, j, k});
+  for (int j = 0; j < 16; ++j)
+    for (const int k : {0, 1}) grid.inactive.push_back({7, j, k});
+  const GridStructure found = recognise_structure(made(grid), {});
+  ASSERT_EQ(found.faults.size(), 1u) << text_of(found);
+  EXPECT_NEAR(found.faults[0].largest_offset, 30, 1e-9);
 }
 
 /// Of the offset counts what both sides have: an inactive layer that lies elsewhere says nothing.

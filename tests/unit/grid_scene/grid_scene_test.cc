@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 #include <numbers>
+#include <numeric>
 
 #include "simulator/corner_point/column_map.h"
 #include "simulator/corner_point/straight_trace.h"
