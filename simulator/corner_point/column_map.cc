@@ -8,9 +8,6 @@ namespace faultsim::corner_point {
 
 namespace {
 
-constexpr std::array<CornerPlace, 4> kTops = {
-    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
-
 /// The uppermost and the lowest layer of a column with an active cell; none: the first is greater.
 std::array<int, 2> active_layers(const CornerPointGrid& grid, int column) {
   std::array<int, 2> layers = {0, grid.size[2] - 1};
@@ -24,19 +21,17 @@ std::array<int, 2> active_layers(const CornerPointGrid& grid, int column) {
 std::array<double, 2> heights_of(const CornerPointGrid& grid, int column,
                                  const std::array<int, 2>& layers) {
   std::array<double, 2> heights = {HUGE_VAL, -HUGE_VAL};
-  for (const CornerPlace& top : kTops) {
+  for (const CornerPlace& top : kTopCorners) {
     heights[0] = std::min(heights[0], grid.z(column, layers[1], {top.right, top.back, true}));
     heights[1] = std::max(heights[1], grid.z(column, layers[0], top));
   }
   return heights;
 }
 
-/// Whether no cell of a column has its bottom above its top.
-bool is_upright(const CornerPointGrid& grid, int column, const std::array<int, 2>& layers) {
+bool has_inverted_cell(const CornerPointGrid& grid, int column, const std::array<int, 2>& layers) {
   for (int k = layers[0]; k <= layers[1]; ++k)
-    for (const CornerPlace& top : kTops)
-      if (grid.z(column, k, {top.right, top.back, true}) > grid.z(column, k, top)) return false;
-  return true;
+    if (grid.is_inverted(column, k)) return true;
+  return false;
 }
 
 }  // namespace
@@ -110,7 +105,7 @@ void ColumnMap::take_in(const std::vector<int>& hole, const std::vector<int>& ar
   const bool is_rock = std::ranges::all_of(hole, [&](int column) {
     const std::array<double, 2> heights = heights_of(*grid_, column, layers);
     return heights[0] >= low - give && heights[1] <= high + give &&
-           is_upright(*grid_, column, layers);
+           !has_inverted_cell(*grid_, column, layers);
   });
   if (!is_rock) return;
   for (const int column : hole) {

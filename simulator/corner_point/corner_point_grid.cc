@@ -5,13 +5,6 @@
 
 namespace faultsim::corner_point {
 
-namespace {
-
-constexpr std::array<CornerPlace, 4> kTopCorners = {
-    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
-
-}  // namespace
-
 Eigen::Vector2d Pillar::at(double z) const {
   const double height = bottom.z() - top.z();
   if (height == 0) return top.head<2>();
@@ -42,6 +35,13 @@ bool CornerPointGrid::has_active_cell(int column) const {
     if (is_active[cell(column, k)] != 0) return true;
   }
   return false;
+}
+
+bool CornerPointGrid::is_inverted(int column, int k) const {
+  constexpr double kRounding = 1e-3;  // m
+  return std::ranges::any_of(kTopCorners, [&](const CornerPlace& top) {
+    return z(column, k, {top.right, top.back, true}) > z(column, k, top) + kRounding;
+  });
 }
 
 double CornerPointGrid::thickness(int column, int k) const {

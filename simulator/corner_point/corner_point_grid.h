@@ -25,6 +25,10 @@ struct CornerPlace {
   bool right = false, back = false, bottom = false;
 };
 
+/// Those of a cell's top.
+inline constexpr std::array<CornerPlace, 4> kTopCorners = {
+    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
+
 /// A corner-point grid: columns of cells between pillars, m, z up (negative below the datum), x and
 /// y on the map. i runs fastest, then j, then k, all from 0; k counts downwards. i and j may be
 /// left- or right-handed on the map.
@@ -57,6 +61,9 @@ struct CornerPointGrid {
   Eigen::Vector3d corner(int column, int k, CornerPlace corner) const;
   /// Whether any cell of the column is active.
   bool has_active_cell(int column) const;
+  /// Whether a cell has its bottom above its top, by more than a file's single precision makes of
+  /// nothing at depths of kilometres, 1 mm.
+  bool is_inverted(int column, int k) const;
   /// Mean of the heights of top and bottom over the four corners, m: 0 in collapsed cells.
   double thickness(int column, int k) const;
   /// The largest height of top over bottom at a corner, m.

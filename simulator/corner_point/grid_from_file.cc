@@ -9,9 +9,6 @@
 namespace faultsim::corner_point {
 namespace {
 
-constexpr std::array<CornerPlace, 4> kMapCorners = {
-    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
-
 /// A file's arrays become a grid; what is wrong with them is gathered.
 class GridMaker {
  public:
@@ -177,12 +174,11 @@ class GridMaker {
 
   /// Layers count downwards, and no cell of an active column is inside out.
   void check_layers() {
-    constexpr double kRounding = 1e-3;  // m, of single precision at some kilometres
     int n_inverted = 0, first = -1;
     for (int column = 0; column < grid_.n_columns(); ++column) {
       if (!grid_.has_active_cell(column)) continue;
       for (int k = 0; k < grid_.size[2]; ++k) {
-        if (!is_inverted(column, k, kRounding)) continue;
+        if (!grid_.is_inverted(column, k)) continue;
         if (n_inverted++ == 0) first = grid_.cell(column, k);
       }
     }
@@ -194,12 +190,6 @@ class GridMaker {
                ", the first at i = ", at[0] + 1, ", j = ", at[1] + 1,
                ", k = ", first / grid_.n_columns() + 1),
         "layers count downwards, and depths (ZCORN) grow downwards; mend them in the flow model");
-  }
-
-  bool is_inverted(int column, int k, double rounding) const {
-    return std::ranges::any_of(kMapCorners, [&](const CornerPlace& top) {
-      return grid_.z(column, k, {top.right, top.back, true}) > grid_.z(column, k, top) + rounding;
-    });
   }
 
   const EclipseGrid& file_;

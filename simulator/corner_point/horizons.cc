@@ -6,9 +6,6 @@
 namespace faultsim::corner_point {
 namespace {
 
-constexpr std::array<CornerPlace, 4> kCorners = {
-    {{false, false, false}, {true, false, false}, {false, true, false}, {true, true, false}}};
-
 /// Columns around a pillar by the side of the faults there: the same number for those that are
 /// joined without crossing a barrier. Those outside have −1.
 std::array<int, 4> sides_around(const ColumnMap& map, const std::set<int>& barriers, int pillar) {
@@ -44,7 +41,7 @@ class HorizonFinder {
     double largest = 0;
     for (int column = 0; column < grid_.n_columns(); ++column) {
       if (!grid_.has_active_cell(column)) continue;
-      for (const CornerPlace& top : kCorners) {
+      for (const CornerPlace& top : kTopCorners) {
         const double bottom = grid_.z(column, k, {top.right, top.back, true});
         largest = std::max(largest, std::abs(bottom - grid_.z(column, k + 1, top)));
       }
