@@ -82,11 +82,12 @@ void add_time_map(const Chosen& chosen, std::size_t f, figure::FaultMap& map) {
 /// Faces at one step, and which of them slide in it or are open.
 void add_plane_map(const StoredFault& fault, const StoredFields& now, MapField show,
                    figure::FaultMap& map) {
+  const DipLines lines = dip_lines(fault);
   for (const std::vector<int>& face : fault.faces) {
     figure::FaultCell cell;
     std::size_t n_moving = 0;
     for (const int point : face) {
-      cell.corners.push_back({fault.points(1, point), -fault.points(2, point)});
+      cell.corners.push_back({lines.along(point), -fault.points(2, point)});
       n_moving += now.state[point] == 0 ? 0U : 1U;
     }
     cell.value = value_of(face, now, show);
@@ -94,7 +95,7 @@ void add_plane_map(const StoredFault& fault, const StoredFields& now, MapField s
     cell.is_marked = 2 * n_moving >= face.size() && show != MapField::state;
     map.cells.push_back(std::move(cell));
   }
-  map.across = "along strike, m";
+  map.across = along_strike_words(lines) + ", m";
   if (show != MapField::state)
     map.marked = "slips or is open in this step (half of a face's corners or more)";
 }

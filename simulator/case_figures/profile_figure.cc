@@ -18,29 +18,36 @@ struct Profile {
   std::vector<double> depth, pressure, normal, shear, strength, chi, slip;
 };
 
-/// Along the line down dip at y, m along strike.
-Profile profile_at(double y, const StoredFault& fault, const StoredFields& now,
-                   const CoulombLaw& friction) {
+/// Along the line down dip through a point.
+Profile profile_through(Eigen::Index point, const StoredFault& fault, const DipLines& lines,
+                        const StoredFields& now, const CoulombLaw& friction) {
   Profile line;
-  for (const std::size_t i : column_through(fault, y)) {
-    const auto k = static_cast<Eigen::Index>(i);
-    line.depth.push_back(-fault.points(2, k));
-    line.pressure.push_back(now.fault_pressure_change[k] / kBarInPascal);
-    line.normal.push_back(-now.traction(0, k) / kMegapascal);
-    line.shear.push_back(shear_at(now, k) / kMegapascal);
-    line.strength.push_back((friction.cohesion - std::min(now.traction(0, k), 0.0) *
-                                                     std::tan(friction.static_friction_angle)) /
+  for (const DipCrossing& at : split_line(fault, lines, point)) {
+    const auto mean = [&](auto value) {
+      return (1 - at.share) * value(at.from) + at.share * value(at.to);
+    };
+    line.depth.push_back(-at.place.z());
+    line.pressure.push_back(mean([&](int k) { return now.fault_pressure_change[k]; }) /
+                            kBarInPascal);
+    line.normal.push_back(-mean([&](int k) { return now.traction(0, k); }) / kMegapascal);
+    line.shear.push_back(mean([&](int k) { return shear_at(now, k); }) / kMegapascal);
+    line.strength.push_back(mean([&](int k) {
+                              return friction.cohesion -
+                                     std::min(now.traction(0, k), 0.0) *
+                                         std::tan(friction.static_friction_angle);
+                            }) /
                             kMegapascal);
-    line.chi.push_back(now.critical_index[k]);
-    line.slip.push_back(std::hypot(now.slip(1, k), now.slip(2, k)) / kMillimetre);
+    line.chi.push_back(mean([&](int k) { return now.critical_index[k]; }));
+    line.slip.push_back(mean([&](int k) { return std::hypot(now.slip(1, k), now.slip(2, k)); }) /
+                        kMillimetre);
   }
   return line;
 }
 
 /// Of the case before the change: at the same load step, on the line that is nearest to a place.
-/// @param says  of the lines, for the remark.
+/// @param along  where that is along strike, m.  @param says  of the lines, for the remark.
 Profile original_profile(const Chosen& chosen, std::size_t entry, const Eigen::Vector3d& place,
-                         std::string& says) {
+                         double along, std::string& says) {
   const auto known = original_fault(chosen);
   const auto before = known ? original_entry(chosen, entry) : std::nullopt;
   says = words_of_original(chosen.picture, before.has_value());
@@ -49,11 +56,13 @@ Profile original_profile(const Chosen& chosen, std::size_t entry, const Eigen::V
   const StoredFault& fault = file.faults()[known->fault];
   const auto nearest = nearest_split(fault, place);
   if (!nearest) return {};
-  const double y = fault.points(1, *nearest);
-  if (std::abs(y - place.y()) > kSamePlace)
+  const DipLines lines = dip_lines(fault);
+  const double at = lines.along(static_cast<int>(*nearest));
+  if (std::abs(at - along) > kSamePlace)
     says = words_of_original(chosen.picture, true,
-                             concat("at ", plain_number(y, 4), " m along strike"));
-  return profile_at(y, fault, file.fields(known->fault, *before), known->friction);
+                             concat("at ", plain_number(at, 4), " m along strike"));
+  return profile_through(*nearest, fault, lines, file.fields(known->fault, *before),
+                         known->friction);
 }
 
 }  // namespace
@@ -62,12 +71,14 @@ std::string draw_profiles(Chosen chosen) {
   const std::size_t f = stored_fault(chosen), entry = stored_entry(chosen);
   const StoredFault& fault = chosen.picture.fields->faults()[f];
   const StoredFields stored = chosen.picture.fields->fields(f, entry);
-  const Eigen::Vector3d place =
-      fault.points.col(static_cast<Eigen::Index>(most_critical(fault, stored.critical_index)));
+  const auto most = static_cast<Eigen::Index>(most_critical(fault, stored.critical_index));
+  const DipLines lines = dip_lines(fault);
+  const double along = lines.along(static_cast<int>(most));
   const Profile now =
-      profile_at(place.y(), fault, stored, chosen.scene().faults[chosen.fault].friction);
+      profile_through(most, fault, lines, stored, chosen.scene().faults[chosen.fault].friction);
   std::string says_before;
-  const Profile before = original_profile(chosen, entry, place, says_before);
+  const Profile before =
+      original_profile(chosen, entry, fault.points.col(most), along, says_before);
   const auto curve = [&](const char* name, std::size_t colour, std::vector<double> Profile::*what) {
     return figure::Curve{name, colour, now.*what, {}, {}, before.*what};
   };
@@ -77,9 +88,9 @@ std::string draw_profiles(Chosen chosen) {
   chart.title = concat("Fault ", chosen.fault_name(), " against depth: ", moment_text(chosen));
   chart.remark =
       concat(says_before, subject_of(chosen.picture),
-             chosen.result().plane_strain
-                 ? ""
-                 : concat("; line down dip at ", plain_number(place.y(), 4), " m along strike"));
+             chosen.result().plane_strain ? ""
+                                          : concat("; line down dip at ", plain_number(along, 4),
+                                                   " m ", along_strike_words(lines)));
   chart.bands = compartments_beside(chosen.scene(), chosen.fault);
   chart.columns = {
       {"Δp in the fault, bar", {curve("", 0, &Profile::pressure)}, {}, {0}},

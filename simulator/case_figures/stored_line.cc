@@ -1,8 +1,11 @@
 #include "simulator/case_figures/stored_line.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
+#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
@@ -68,6 +71,37 @@ std::size_t stored_entry(Chosen& chosen) {
     if (chosen.result().steps[k].step == steps[entry]) chosen.step = k;
   }
   return entry;
+}
+
+DipLines dip_lines(const StoredFault& fault) {
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& point : fault.points.colwise()) points.emplace_back(point);
+  std::vector<std::array<int, 4>> faces;
+  for (const std::vector<int>& face : fault.faces) {
+    // In plane strain two points: the ends of an edge down dip.
+    faces.push_back({face.front(), face[1], face[face.size() / 2], face.back()});
+  }
+  return {std::move(points), faces};
+}
+
+std::vector<DipCrossing> split_line(const StoredFault& fault, const DipLines& lines,
+                                    Eigen::Index point) {
+  const int k = static_cast<int>(point);
+  std::vector<DipCrossing> line = lines.line(lines.along(k), lines.part(k));
+  std::erase_if(line, [&](const DipCrossing& at) {
+    return fault.split[static_cast<std::size_t>(at.from)] == 0 ||
+           fault.split[static_cast<std::size_t>(at.to)] == 0;
+  });
+  return line;
+}
+
+std::string along_strike_words(const DipLines& lines) {
+  const Eigen::Vector3d& strike = lines.strike();
+  const double angle = std::atan2(strike.x(), strike.y()) * 180 / std::numbers::pi;
+  const auto degrees = std::lround(std::abs(angle));
+  if (degrees == 0) return "along strike";
+  if (degrees == 90) return "along strike, towards x";
+  return concat("along strike, ", degrees, "° from y towards ", angle > 0 ? "x" : "−x");
 }
 
 std::vector<std::size_t> column_through(const StoredFault& fault, double y) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "simulator/case_figures/chosen.h"
+#include "simulator/model/dip_lines.h"
 
 /// Where in the fields of a case a chart looks.
 namespace faultsim::case_figures {
@@ -34,7 +35,15 @@ std::optional<Eigen::Index> nearest_split(const StoredFault& fault, const Eigen:
 /// Two places that differ by less are one, m.
 inline constexpr double kSamePlace = 1e-3;
 
-/// Split points of the line down dip at y (m, along strike), by depth.
+/// Which way is along strike on a fault, which may bend, and its lines down dip.
+DipLines dip_lines(const StoredFault& fault);
+/// Where the line down dip through a point meets the surface between points that are split.
+std::vector<DipCrossing> split_line(const StoredFault& fault, const DipLines& lines,
+                                    Eigen::Index point);
+/// "along strike", and which way if that is not along y: "along strike, 40° from y towards x".
+std::string along_strike_words(const DipLines& lines);
+
+/// Split points of the line down dip at y (m) of a fault that strikes along y, by depth.
 std::vector<std::size_t> column_through(const StoredFault& fault, double y);
 
 /// The split point with the largest χ, the first of them in the file's order. Throws InputError

@@ -49,14 +49,15 @@ struct Profile {
   double length() const;
 };
 
-/// The profiles of a fault: where planes across its strike cut its faces. There is one through
-/// every split point, but points closer along strike than half the narrowest face share the first
-/// one's: of a grid whose lines go down dip, a profile is such a line, and its samples are its
-/// nodes.
+/// The profiles of a fault: its lines down dip (dip_lines.h), each within one part of it. There is
+/// one through every split point, but points closer along strike than half the narrowest face share
+/// the first one's: of a grid whose lines go down dip, a profile is such a line, and its samples
+/// are its nodes.
 ///
-/// Strike and dip are those of a plane fault, and of a curved one of its mean normal over its area.
+/// Strike and dip are those of a plane fault; of a fault with a straight trace, those of its mean
+/// normal over its area. Along a trace that bends, position along strike is the
+/// strike_coordinate(), and depth orders a profile.
 ///
-/// @pre positions down that dip order the points of a profile: the fault does not fold over.
 /// @return from south to north, or west to east if strike is nearer to that; none without nodes.
 std::vector<Profile> fault_profiles(const OperatorFault& fault,
                                     const std::vector<OperatorNode>& nodes);

@@ -261,8 +261,8 @@ void for_each_key(Of<MeshVolume> auto& v, auto&& visit) {
 
 /// Under which identities and families keep the bytes of a mesh: another name when what is computed
 /// on meshes alone changes, so that grids keep theirs (kNumericsVersion is for both). 2: unknowns
-/// ordered by corners.
-inline constexpr const char* kMeshInText = "file, numerics 2";
+/// ordered by corners. 3: profiles of faults that bend.
+inline constexpr const char* kMeshInText = "file, numerics 3";
 
 /// A mesh in place of the grid of a box: from a file, or built of horizons.
 struct BodyMesh {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 
 #include "simulator/model/fault_operator.h"
 
@@ -134,6 +135,65 @@ TEST(FaultProfiles, OfACurvedFaultGoDownTheMeanDip) {
     EXPECT_EQ(profiles[k].samples[1].node[0], first + 1);
     EXPECT_NEAR(profiles[k].length(), 30, 1e-9);
   }
+}
+
+/// A trace of four equal legs that turns by an angle in the middle: as wide as it is long, and no
+/// profile joins both halves, also where the trace comes back beside itself.
+TEST(FaultProfiles, OfABentFaultAreTogetherAsWideAsItsTraceIsLong) {
+  for (const double degrees : {20., 60., 90., 120., 150., 179.}) {
+    SCOPED_TRACE(degrees);
+    Surface surface = grid({0, 10, 20, 30, 40, 50, 60, 70, 80}, {1000, 1010, 1020, 1030});
+    const double turn = degrees * std::numbers::pi / 180;
+    const Eigen::Vector3d first = Eigen::Vector3d::UnitY(),
+                          second(std::sin(turn), std::cos(turn), 0);
+    const auto bent = [&](const Eigen::Vector3d& straight) -> Eigen::Vector3d {
+      const double along = straight.y();
+      return std::min(along, 40.) * first + std::max(along - 40, 0.) * second +
+             Eigen::Vector3d(0, 0, straight.z());
+    };
+    for (OperatorNode& node : surface.nodes) {
+      node.area = 100;
+      node.strike = node.position.y() < 40 ? first : second;
+      node.normal = node.strike.cross(Eigen::Vector3d::UnitZ());
+      node.position = bent(node.position);
+    }
+    for (Eigen::Vector3d& point : surface.fault.points) point = bent(point);
+    const std::vector<Profile> profiles = surface.profiles();
+    ASSERT_EQ(profiles.size(), 7u);
+    double width = 0;
+    for (const Profile& profile : profiles) {
+      EXPECT_EQ(profile.samples.size(), 2u);
+      EXPECT_NEAR(profile.length(), 30, 1e-9);
+      width += profile.width;
+    }
+    EXPECT_NEAR(width, 70, 1e-9);  // half of the first and of the last leg is no profile's
+  }
+}
+
+/// Two parts of one fault that overlap along strike, 100 m apart.
+TEST(FaultProfiles, KeepToTheirPart) {
+  Surface surface = grid({0, 10, 20, 30, 40}, {1000, 1010, 1020, 1030});
+  const Surface other = grid({25, 35, 45, 55, 65}, {1000, 1010, 1020, 1030});
+  const int n = static_cast<int>(surface.fault.points.size());
+  for (std::size_t i = 0; i < other.fault.points.size(); ++i) {
+    const Eigen::Vector3d& point = other.fault.points[i];
+    surface.point(point.y(), -point.z(), other.fault.node_of_point[i] >= 0);
+    surface.fault.points.back().x() = 100;
+  }
+  for (std::array<int, 4> face : other.fault.faces) {
+    for (int& corner : face) corner += n;
+    surface.fault.faces.push_back(face);
+  }
+  const std::vector<Profile> profiles = surface.profiles();
+  ASSERT_EQ(profiles.size(), 6u);
+  for (const Profile& profile : profiles) {
+    ASSERT_EQ(profile.samples.size(), 2u);
+    EXPECT_EQ(profile.samples[0].node[0] < 6, profile.samples[1].node[0] < 6);
+    EXPECT_EQ(profile.width, 10);
+    EXPECT_EQ(profile.length(), 30);
+  }
+  EXPECT_EQ(profiles[2].samples[0].node[0], 4);  // at 30 m; the other part begins at 35 m
+  EXPECT_EQ(profiles[3].samples[0].node[0], 6);
 }
 
 TEST(FaultProfiles, WithoutNodesThereAreNone) {
