@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <optional>
+#include <ranges>
+#include <string_view>
 #include <utility>
 
 #include "campaign/common/names.h"
@@ -13,8 +14,9 @@ namespace faultsweep {
 
 namespace {
 
-constexpr std::size_t kGap = 2;         // blanks between columns
-constexpr std::size_t kNarrowest = 20;  // of a column whose texts are broken
+constexpr std::size_t kGap = 2;           // blanks between columns
+constexpr std::size_t kNarrowest = 20;    // of a column whose texts are broken ...
+constexpr std::size_t kLongestWord = 32;  // ... at blanks, except in words longer than this
 
 /// The beginning of a text that is at most so wide, up to a blank where there is one, and what is
 /// left of it.
@@ -39,8 +41,9 @@ struct Laid {
   std::vector<std::string> cells;    ///< of the rows that are shown.
   std::vector<std::string> heading;  ///< its lines.
   std::size_t width = 0, natural = 0;
-  bool to_the_right = true;  ///< numbers.
-  std::size_t narrowest() const { return to_the_right ? natural : std::min(natural, kNarrowest); }
+  std::size_t longest_word = kNarrowest;  ///< of texts, within the two limits above.
+  bool to_the_right = true;               ///< numbers.
+  std::size_t narrowest() const { return to_the_right ? natural : std::min(natural, longest_word); }
 };
 
 bool is_number(const AnswerCell& cell) {
@@ -54,6 +57,16 @@ std::size_t widest_of(const std::vector<std::string>& texts) {
   return width;
 }
 
+/// The widest word of a text that is not too long to be kept in one piece.
+std::size_t longest_word(std::string_view text) {
+  std::size_t longest = 0;
+  for (const auto word : std::views::split(text, ' ')) {
+    const std::size_t width = display_width(std::string(word.begin(), word.end()));
+    if (width <= kLongestWord) longest = std::max(longest, width);
+  }
+  return longest;
+}
+
 /// Columns with something in them.
 std::vector<Laid> used_columns(const AnswerTable& table, std::size_t n_rows) {
   std::vector<Laid> all;
@@ -64,6 +77,7 @@ std::vector<Laid> used_columns(const AnswerTable& table, std::size_t n_rows) {
     for (std::size_t r = 0; r < n_rows; ++r) {
       const AnswerCell cell = k < table.rows[r].size() ? table.rows[r][k] : AnswerCell{};
       laid.cells.push_back(shown_cell(cell, table.columns[k]));
+      laid.longest_word = std::max(laid.longest_word, longest_word(laid.cells.back()));
       laid.to_the_right = laid.to_the_right && is_number(cell);
     }
     const bool is_used =

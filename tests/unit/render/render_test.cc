@@ -87,6 +87,15 @@ TEST(RenderText, BreaksTextsThatAreTooLong) {
             "   2  narrow\n");
 }
 
+TEST(RenderText, KeepsWordsInOnePieceUnlessTheyAreVeryLong) {
+  AnswerTable table{"answers", "", {{"case", "case"}, {"answer", "answer"}}};
+  table.rows = {{1, "F2 slides in cushion_gas_injection_2"}, {2, std::string(40, 'x')}};
+  const auto lines = lines_of(render_text(table, 30));
+  EXPECT_EQ(lines[1], "   1  F2 slides in");
+  EXPECT_EQ(lines[2], "      cushion_gas_injection_2");
+  EXPECT_EQ(lines[3], "   2  " + std::string(24, 'x'));
+}
+
 TEST(RenderText, HeadingsTakeSeveralLinesOnlyWhereTheyMust) {
   AnswerTable table{
       "t", "", {{"a", "sliding area", {"m²", 1, "m2"}}, {"b", "event M0", {"N m", 1, ""}}}};
