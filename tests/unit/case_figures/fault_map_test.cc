@@ -10,6 +10,7 @@
 #include "simulator/result_files/field_reader.h"
 #include "simulator/result_files/field_writer.h"
 #include "tests/unit/case_figures/fields_of_a_fault.h"
+#include "tests/unit/case_figures/fields_of_one_fault.h"
 #include "tests/unit/case_figures/small_case.h"
 #include "tests/unit/figure/svg_reader.h"
 #include "tests/unit/figure/xml_check.h"
@@ -152,23 +153,8 @@ TEST(PlaneMap, MarksFacesOfWhichHalfOfTheCornersMove) {
 
 /// One face of F2 that slips by 2 mm in the first step and 8 mm more in the second, in which it
 /// gains 10 bar back of the 40 bar that it lost; times a factor.
-struct OneSlidingFace : FieldSource {
-  explicit OneSlidingFace(double factor = 1) : times_more(factor) {
-    StoredFault fault;
-    fault.name = "F2";
-    fault.points.resize(3, 4);
-    fault.points << 0, 0, 0, 0, 0, 100, 100, 0, -2000, -2000, -2050, -2050;
-    fault.faces = {{0, 1, 2, 3}};
-    fault.split = {1, 1, 1, 1};
-    all_faults = {fault};
-    for (const StepResult& step : small_result().steps) {
-      all_steps.push_back(step.step);
-      all_times.push_back(step.time);
-    }
-  }
-  const std::vector<int>& steps() const override { return all_steps; }
-  const std::vector<double>& times() const override { return all_times; }
-  const std::vector<StoredFault>& faults() const override { return all_faults; }
+struct OneSlidingFace : FieldsOfOneFault {
+  explicit OneSlidingFace(double factor = 1) : FieldsOfOneFault(face()), times_more(factor) {}
   StoredFields fields(std::size_t, std::size_t entry) const override {
     static constexpr std::array kSlips = {0.0, 0.002, 0.010}, kPressures = {0.0, -4e6, -3e6};
     StoredFields now;
@@ -180,9 +166,17 @@ struct OneSlidingFace : FieldSource {
     return now;
   }
   double times_more;
-  std::vector<int> all_steps;
-  std::vector<double> all_times;
-  std::vector<StoredFault> all_faults;
+
+ private:
+  static StoredFault face() {
+    StoredFault fault;
+    fault.name = "F2";
+    fault.points.resize(3, 4);
+    fault.points << 0, 0, 0, 0, 0, 100, 100, 0, -2000, -2000, -2050, -2050;
+    fault.faces = {{0, 1, 2, 3}};
+    fault.split = {1, 1, 1, 1};
+    return fault;
+  }
 };
 
 /// Maps of one case of a fault in its plane.

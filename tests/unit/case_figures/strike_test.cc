@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulator/result_files/field_source.h"
+#include "tests/unit/case_figures/fields_of_one_fault.h"
 #include "tests/unit/case_figures/read_curves.h"
-#include "tests/unit/case_figures/small_case.h"
 #include "tests/unit/figure/svg_reader.h"
 
 namespace faultsim {
@@ -17,9 +16,22 @@ using testing::HasSubstr;
 
 /// A vertical fault of five columns of three points, 100 m apart along its trace and 50 m down; χ
 /// is largest, 0.9, in the middle of the last column but one.
-struct FaultAlong : FieldSource {
+struct FaultAlong : FieldsOfOneFault {
   template <typename Trace>
-  explicit FaultAlong(Trace trace) {
+  explicit FaultAlong(Trace trace) : FieldsOfOneFault(fault_along(trace)) {}
+  StoredFields fields(std::size_t, std::size_t) const override {
+    StoredFields now;
+    now.traction = now.slip = Eigen::Matrix3Xd::Zero(3, 15);
+    now.critical_index = Eigen::VectorXd::LinSpaced(15, 0.10, 0.24);
+    now.critical_index[10] = 0.9;
+    now.fault_pressure_change = Eigen::VectorXd::Zero(15);
+    now.state.assign(15, 0);
+    return now;
+  }
+
+ private:
+  template <typename Trace>
+  static StoredFault fault_along(Trace trace) {
     StoredFault fault;
     fault.name = "F2";
     fault.points.resize(3, 15);
@@ -32,27 +44,8 @@ struct FaultAlong : FieldSource {
           fault.faces.push_back({3 * c + r - 4, 3 * c + r - 3, 3 * c + r, 3 * c + r - 1});
       }
     }
-    all_faults = {fault};
-    for (const StepResult& step : small_result().steps) {
-      all_steps.push_back(step.step);
-      all_times.push_back(step.time);
-    }
+    return fault;
   }
-  const std::vector<int>& steps() const override { return all_steps; }
-  const std::vector<double>& times() const override { return all_times; }
-  const std::vector<StoredFault>& faults() const override { return all_faults; }
-  StoredFields fields(std::size_t, std::size_t) const override {
-    StoredFields now;
-    now.traction = now.slip = Eigen::Matrix3Xd::Zero(3, 15);
-    now.critical_index = Eigen::VectorXd::LinSpaced(15, 0.10, 0.24);
-    now.critical_index[10] = 0.9;
-    now.fault_pressure_change = Eigen::VectorXd::Zero(15);
-    now.state.assign(15, 0);
-    return now;
-  }
-  std::vector<int> all_steps;
-  std::vector<double> all_times;
-  std::vector<StoredFault> all_faults;
 };
 
 std::string drawn(const FaultAlong& fields, CaseChart chart) {

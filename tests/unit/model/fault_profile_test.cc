@@ -137,8 +137,8 @@ TEST(FaultProfiles, OfACurvedFaultGoDownTheMeanDip) {
   }
 }
 
-/// A trace of four equal legs that turns by an angle in the middle: as wide as it is long, and no
-/// profile joins both halves, also where the trace comes back beside itself.
+/// A trace of two legs of 40 m that turns by an angle between them: as wide as it is long, and no
+/// profile joins both legs, also where the second comes back beside the first.
 TEST(FaultProfiles, OfABentFaultAreTogetherAsWideAsItsTraceIsLong) {
   for (const double degrees : {20., 60., 90., 120., 150., 179.}) {
     SCOPED_TRACE(degrees);
@@ -166,7 +166,7 @@ TEST(FaultProfiles, OfABentFaultAreTogetherAsWideAsItsTraceIsLong) {
       EXPECT_NEAR(profile.length(), 30, 1e-9);
       width += profile.width;
     }
-    EXPECT_NEAR(width, 70, 1e-9);  // half of the first and of the last leg is no profile's
+    EXPECT_NEAR(width, 70, 1e-9);  // half of the first and of the last cell is no profile's
   }
 }
 
