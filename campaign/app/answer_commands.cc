@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kExportFooter =
     "Examples:\n"
-    "  faultsweep export -o cases.csv                 a row per case, whatever became of it\n"
+    "  faultsweep export -o cases.csv                 a row per case, whatever its outcome\n"
     "  faultsweep export --metrics moment,max_slip --where \"friction_angle < 25 deg\"\n"
     "  faultsweep export --histories -o histories.csv a row per case, fault and load step\n"
     "  faultsweep export --format dakota -o points.dat\n"
@@ -121,18 +121,18 @@ void add_curves(CLI::App* command, ProbabilityArguments& a, CLI::Option* of, CLI
           ->excludes(by);
   command
       ->add_option("--stage", a.stage,
-                   "curves of slip since the start of this stage; default: of the history,\n"
+                   "curves: slip since the start of this stage; default: of the history,\n"
                    "against pressure each stage")
       ->needs(against);
   CLI::Option* quantiles =
       command
           ->add_option("--quantiles", a.quantiles.metrics,
-                       "quantiles of these metrics instead, with commas: names of\n"
+                       "quantiles of these metrics instead, comma-separated: names from\n"
                        "`rank --list-metrics`, also of a fault and stage")
           ->excludes(of)
           ->excludes(by)
           ->excludes(against);
-  command->add_option("--at", a.quantiles.at, "shares of the cases below (default 0.05,0.5,0.95)")
+  command->add_option("--at", a.quantiles.at, "levels of the quantiles (default 0.05,0.5,0.95)")
       ->delimiter(',')
       ->needs(quantiles);
 }
@@ -146,7 +146,7 @@ void add_samples(Program& program) {
   ProbabilityRequest& request = a.request;
   CLI::Option* of =
       command->add_option("--of", request.condition,
-                          "condition on metrics, as of `rank --where`; default: that each fault\n"
+                          "condition on metrics, as for `rank --where`; default: that each fault\n"
                           "slides, in each stage");
   add_where(command, request.where);
   CLI::Option* by = command->add_option(
@@ -154,7 +154,7 @@ void add_samples(Program& program) {
   add_curves(command, a, of, by);
   command
       ->add_option("--width", request.width,
-                   "wanted distance of the bounds, as a share: how many more cases it takes")
+                   "wanted distance of the bounds, as a share: says how many more cases it takes")
       ->check(CLI::Range(1e-4, 1.0));
   add_confidence(command, request.confidence);
   add_renderings(command, program.common);
@@ -167,11 +167,11 @@ void add_samples(Program& program) {
       "  faultsweep probability --quantiles \"F1.chi_bar, max_slip in gas_storage\" --at 0.5,0.99");
 
   auto [posterior_command, seen] = program.add(
-      "posterior", "parameters and probabilities, given what was seen in the field", posterior);
+      "posterior", "parameters and probabilities, given what was observed in the field", posterior);
   add_campaign(posterior_command, program.common);
   posterior_command
       ->add_option("--seen", seen.seen,
-                   "a statement; give the option again for each further one:\n"
+                   "a statement; repeat the option for each further one:\n"
                    "\"F2 did not slide before 8 yr +- 0.5 yr\", \"event of Mw 3 +- 0.2 on F2\n"
                    "between -120 bar and -80 bar +- 5 bar\", \"max_slip = 20 mm +- 5 mm\",\n"
                    "\"F2.slides in gas_storage, wrong 0.1\"")
@@ -179,8 +179,8 @@ void add_samples(Program& program) {
       ->allow_extra_args(false);
   posterior_command
       ->add_option("--of", seen.conditions,
-                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
-                   "again; default: that each fault slides, in each stage")
+                   "condition whose probability is wanted, as for `rank --where`; may be\n"
+                   "repeated; default: that each fault slides, in each stage")
       ->allow_extra_args(false);
   add_where(posterior_command, seen.where);
   add_confidence(posterior_command, seen.confidence);
@@ -190,19 +190,19 @@ void add_samples(Program& program) {
       "  faultsweep posterior my-sweep --seen \"F2 did not slide before 8 yr\"\n"
       "  faultsweep posterior --seen \"F1.max_slip = 20 mm +- 5 mm\" --of \"F2.slides in "
       "gas_storage\"\n"
-      "What is given without an error is taken as exact. The cases are what was thought before.");
+      "A value given without an error is taken as exact. The cases are the prior.");
 
   auto [sensitivity_command, s] = program.add(
-      "sensitivity", "which parameters a metric depends on, and how surely", sensitivity);
+      "sensitivity", "which parameters a metric depends on, and with what certainty", sensitivity);
   add_campaign(sensitivity_command, program.common);
   sensitivity_command->add_option(
       "--metrics", s.metrics,
-      "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
-      "F2.max_slip in gas_storage; default: chi_bar, slip and sliding by fault");
+      "names from `rank --list-metrics`, comma-separated, also of a fault and\n"
+      "stage: F2.max_slip in gas_storage; default: chi_bar, slip, sliding by fault");
   sensitivity_command->add_flag(
       "--by-step", s.by_step,
-      "at the end of each load step, and of all steps weighted by variance;\n"
-      "of faults: F2.chi_bar; default: chi_bar of each");
+      "at the end of each load step, and over all steps weighted by variance;\n"
+      "metrics of faults: F2.chi_bar; default: chi_bar of each");
   add_stage_and_fault(sensitivity_command, s.cases.stage, s.cases.fault);
   add_where(sensitivity_command, s.cases.where);
   add_confidence(sensitivity_command, s.confidence);
@@ -225,27 +225,27 @@ void add_tables(Program& program) {
       ->option_text("NAME");
   command->add_option("-o,--output", request.target, "file, or folder for salib; default: stdout");
   command->add_option("--metrics", request.metrics,
-                      "names of `rank --list-metrics`, with commas, also of a fault and stage:\n"
-                      "F2.max_slip in gas_storage; default: all, for dakota and salib those that\n"
-                      "every full history has");
+                      "names from `rank --list-metrics`, comma-separated, also of a fault and\n"
+                      "stage: F2.max_slip in gas_storage; default: all, for dakota and salib\n"
+                      "those that every full history has");
   add_stage_and_fault(command, request.stage, request.fault);
   add_where(command, request.where);
   command->add_flag("--histories", request.histories,
-                    "the chi histories instead: a row per case, fault and load step");
+                    "chi histories instead: a row per case, fault and load step");
   command->footer(kExportFooter);
 
   auto [compare_command, a] = program.add("compare", "two campaigns, case by case", compare);
   program.stores.push_back(&a.other_store);
   compare_command->add_option("A", a.a, "a campaign")->required();
   compare_command->add_option("B", a.b,
-                              "another one; default with --other-store: of the same name");
+                              "another one; default with --other-store: the one of the same name");
   compare_command->add_option("--other-store", a.other_store, "store folder of B");
   compare_command
       ->add_option("--tolerance", a.request.tolerance,
-                   "relative difference of a metric that still agrees (default 1e-9)")
+                   "relative difference up to which a metric agrees (default 1e-9)")
       ->check(CLI::NonNegativeNumber);
   compare_command->add_option("--metrics", a.request.metrics,
-                              "names of `rank --list-metrics`, with commas; default: all");
+                              "names from `rank --list-metrics`, comma-separated; default: all");
   compare_command->add_option("--stage", a.request.stage,
                               "metrics of this stage; default: the whole history");
   compare_command

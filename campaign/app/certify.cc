@@ -14,7 +14,7 @@ namespace faultsweep {
 namespace {
 
 constexpr const char* kCure =
-    "give the interpolated cases exact operators in a campaign of their own";
+    "run the interpolated cases with exact operators in a campaign of their own";
 
 /// The spec of the campaign on its stored scene, which has its surfaces.
 ordered_json spec_of(const Store& store, const CampaignInfo& campaign) {
@@ -63,7 +63,7 @@ ExitCode certify(const StoreArguments& common, const CertifyRequest& request) {
       throw InputError("--certify", {{"", 0,
                                       concat("none of the first ", request.n, " cases of ",
                                              campaign.name, " has an interpolated operator"),
-                                      "they are exact as they are"}});
+                                      "leave --certify out: they are exact already"}});
     }
     spec = spec_of(store, campaign);
     // What relative paths in the scene start from, as far as it is still the campaign's.

@@ -19,7 +19,7 @@ void add_case(CLI::App* command, StoreArguments& common, std::string& name) {
 void add_where(CLI::App* command, std::string& where) {
   command->add_option(
       "--where", where,
-      "only cases where this holds of metrics and parameters: \"offset > 50 m and\n"
+      "only cases where this holds for metrics and parameters: \"offset > 50 m and\n"
       "slides\"; of a fault, a stage, or both: \"F2.max_slip in gas_storage > 10 mm\"");
 }
 void add_stage_and_fault(CLI::App* command, std::string& stage, std::string& fault) {

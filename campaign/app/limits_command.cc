@@ -22,7 +22,7 @@ struct LimitsArguments {
 SubmittedRun search_limits(const StoreArguments& common, const LimitsArguments& arguments) {
   const Expansion expansion = expand(read_campaign(arguments.source));
   if (expansion.spec.limits.empty()) {
-    throw InputError(arguments.source, {{"/limits", 0, "the spec searches no limits",
+    throw InputError(arguments.source, {{"/limits", 0, "the spec does not search for limits",
                                          "add a section \"limits\", or use faultsweep submit"}});
   }
   check_rounds(expansion);
@@ -54,9 +54,10 @@ ExitCode limits(const StoreArguments& common, const LimitsArguments& arguments) 
 void add_limits(Program& program) {
   auto [command, a] = program.add(
       "limits", "up to which pressure a fault is safe, in each configuration of a spec", limits);
-  command->add_option("source", a.source,
-                      "spec (*.json) with a section limits, which is submitted and run first; or\n"
-                      "a campaign of one; default: the newest");
+  command->add_option(
+      "source", a.source,
+      "spec (*.json) with a section \"limits\", which is submitted and run first; or\n"
+      "a campaign of one; default: the newest");
   add_workers(command, a.n_workers, "of the run; default: the cores available");
   command->add_option("--top", a.top, "how many rows (default 20); 0 = all")
       ->check(CLI::NonNegativeNumber);
@@ -69,7 +70,7 @@ void add_limits(Program& program) {
       "  faultsweep limits storage-limit.json             search, then the narrowest bands first\n"
       "  faultsweep limits storage-limit --map offset friction_angle\n"
       "  faultsweep limits storage-limit --csv >limits.csv\n"
-      "Each limit is a pair of cases that were computed, one on either side of it.");
+      "Each limit is a pair of computed cases, one on either side of it.");
 }
 
 }  // namespace faultsweep

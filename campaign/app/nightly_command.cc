@@ -48,19 +48,19 @@ void add_nightly(Program& program) {
   command->add_option("--baselines", n.baselines,
                       "folder of the baselines (default results/baselines)");
   command->add_option("--store", n.store, "store of the nights (default ./faultsweep-nightly)");
-  add_workers(command, n.n_workers, "as for run");
+  add_workers(command, n.n_workers, "as for `run`");
   CLI::Option* bless = command->add_flag("--bless", n.bless, "make tonight's results the baseline");
   CLI::Option* reason = command->add_option("--reason", n.reason, "why; kept in the baseline");
   bless->needs(reason);
   reason->needs(bless);
-  command->add_flag("--history", n.history, "only print the nights so far")->excludes(bless);
+  command->add_flag("--history", n.history, "only list the nights so far")->excludes(bless);
   command->add_flag("--json", n.json, "machine-readable output on stdout");
   add_wide(command);
   command->footer(
       "Examples:\n"
       "  faultsweep nightly nightly.json\n"
       "  faultsweep nightly --bless --reason \"finer cells at the corners\"\n"
-      "Exit codes: 0 no regress, 5 a regress, or nothing was compared.");
+      "Exit codes: 0 no regression, 5 a regression, or nothing was compared.");
 }
 
 }  // namespace faultsweep

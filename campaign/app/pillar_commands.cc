@@ -41,7 +41,7 @@ ColumnNames names_in(const std::filesystem::path& file) {
       continue;
     }
     throw InputError(file.string(),
-                     {{"/" + name, document.line_of("/" + name), "is not a name of a column",
+                     {{"/" + name, document.line_of("/" + name), "is not the name of a column",
                        "write { \"depth\": \"TOP_TVD [m]\" }"}});
   }
   return names;
@@ -53,7 +53,7 @@ std::optional<RegionalStress> stress_of(const PillarArguments& arguments) {
   if (!azimuth.ok) throw InputError("--stress-azimuth", azimuth.what, azimuth.cure);
   if (arguments.stress_ratios.size() != 2 ||
       !(arguments.stress_ratios[0] >= arguments.stress_ratios[1]))
-    throw InputError("--stress-ratios", "two ratios go with the azimuth, the larger first",
+    throw InputError("--stress-ratios", "the azimuth needs two ratios, the larger first",
                      "write --stress-ratios 0.83 0.74");
   return RegionalStress{azimuth.value / faultsim::kDegree, arguments.stress_ratios[0],
                         arguments.stress_ratios[1]};
@@ -115,7 +115,7 @@ ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
   const PillarCampaign campaign = make_pillar_campaign(
       table, base, scene.string(), name_of(arguments), stress_of(arguments), [&](std::size_t i) {
         if (shows && i % 100 == 0)
-          std::fprintf(stderr, "\r%zu of %zu pillars looked at", i, table.n_pillars());
+          std::fprintf(stderr, "\r%zu of %zu pillars checked", i, table.n_pillars());
       });
   if (shows) std::fputs("\r\033[K", stderr);
   const std::size_t n_pillars = table.n_pillars() + table.refused.size();
@@ -124,13 +124,13 @@ ExitCode pillars(const StoreArguments&, const PillarArguments& arguments) {
                             campaign.refused.size(), " refused\n", refused_text(campaign));
   for (const std::string& one : table.ignored) text += "  column \"" + one + "\" is not used\n";
   if (campaign.largest_shear_left_out > 0)
-    text += concat("  shear on the section is left out, up to ",
+    text += concat("  shear on the section is neglected: up to ",
                    shortest_text(std::round(1000 * campaign.largest_shear_left_out) / 1000),
                    " of the vertical effective stress\n");
   print_text(text);
   if (campaign.n_cases == 0)
     throw InputError(arguments.table.string(),
-                     {{"", 0, "no pillar can be modelled", "see what is said of them"}});
+                     {{"", 0, "no pillar can be modelled", "see the reasons for each"}});
   faultsim::write_text(folder.path() / "campaign.json", campaign.spec);
   faultsim::write_text(folder.path() / "samples.csv", campaign.samples);
   faultsim::write_text(folder.path() / "places.csv", campaign.places);
@@ -164,7 +164,7 @@ ExitCode map(const StoreArguments& common, const MapArguments& arguments) {
   const std::string kind = arguments.output.extension().string();
   if (kind != ".csv" && kind != ".vtu" && kind != ".ts" && kind != ".pvd")
     throw InputError("-o", concat("\"", kind, "\" is not a kind of map"),
-                     "name a file that ends in .csv, .vtu, .pvd or .ts");
+                     "name a file ending in .csv, .vtu, .pvd or .ts");
   faultsim::require_writable_file("-o", arguments.output, faultsim::FileKind::text,
                                   {arguments.places});
   const Store store = Store::open_reader(common.store);
@@ -187,7 +187,7 @@ ExitCode map(const StoreArguments& common, const MapArguments& arguments) {
 
 void add_pillars(Program& program) {
   auto [command, a] =
-      program.add("pillars", "a campaign of a table of fault pillars of your own field", pillars);
+      program.add("pillars", "a campaign from a table of fault pillars of your own field", pillars);
   command->add_option("table", a.table, "CSV, a line for each pillar")->required();
   command
       ->add_option("--scene", a.scene,
@@ -196,8 +196,8 @@ void add_pillars(Program& program) {
   command->add_option("-o,--output", a.folder, "folder for campaign.json and its tables")
       ->required();
   command->add_option("--names", a.names,
-                      "JSON: how the table calls the columns, {\"depth\": \"TOP_TVD [m]\"}");
-  command->add_option("--name", a.name, "of the campaign (default: as the table's file)");
+                      "JSON: the table's names of the columns, {\"depth\": \"TOP_TVD [m]\"}");
+  command->add_option("--name", a.name, "of the campaign (default: that of the table's file)");
   CLI::Option* azimuth = command->add_option("--stress-azimuth", a.stress_azimuth,
                                              "\"160 deg\": of the largest horizontal stress");
   command
@@ -209,23 +209,23 @@ void add_pillars(Program& program) {
       "Columns: id, fault, x [m], y [m], azimuth [deg], depth [m], offset [m], thickness [m] or\n"
       "thickness_foot [m] and thickness_hanging [m], dip [deg] (from the vertical) or\n"
       "dip_from_horizontal [deg], until (the date at which a pillar's history ends), and any\n"
-      "parameter that `faultsim parameters` lists. A line that is not all there refuses itself\n"
-      "only; all of those are in refused.csv, with line, column and cure.\n"
-      "A pressure_field or temperature_field of the scene is taken where each pillar is.\n"
-      "First sliding pressures are searched within their load steps to 0.1 bar, or to what\n"
-      "/numerics/activation_tolerance of the scene says.\n"
+      "parameter that `faultsim parameters` lists. An incomplete line is refused without\n"
+      "affecting others; refused.csv lists those, with line, column and cure.\n"
+      "A pressure_field or temperature_field of the scene is read at the place of each pillar.\n"
+      "The pressure of first sliding is searched for within its load step, to 0.1 bar or to the\n"
+      "scene's /numerics/activation_tolerance.\n"
       "Examples:\n"
       "  faultsweep pillars pillars.csv --scene section.json -o pillars\n"
       "  faultsweep submit pillars/campaign.json && faultsweep run pillars\n"
       "  faultsweep map pillars/places.csv pillars -o map.vtu      for ParaView\n"
-      "  faultsweep map pillars/places.csv pillars -o map.pvd      the same year by year");
+      "  faultsweep map pillars/places.csv pillars -o map.pvd      the same, year by year");
 
-  auto [map_command, m] = program.add("map", "what became of pillars, on a map", map);
+  auto [map_command, m] = program.add("map", "results at the pillars, on a map", map);
   map_command->add_option("places", m.places, "places.csv of `faultsweep pillars`")->required();
   add_campaign(map_command, program.common);
   map_command
       ->add_option("-o,--output", m.output,
-                   "file: .csv, .vtu, .pvd (the same year by year) or .ts (GOCAD surfaces)")
+                   "file: .csv, .vtu, .pvd (the same, year by year) or .ts (GOCAD surfaces)")
       ->required();
   map_command->footer("Example: faultsweep map pillars/places.csv pillars -o map.csv");
 }

@@ -41,8 +41,9 @@ struct ReportArguments {
 std::string draw_curves(const PlotArguments& arguments, const Store& store,
                         const CampaignInfo& campaign) {
   if (arguments.curves.axis == CurveAxis::pressure) {
-    throw InputError("--against", "there is no chart against pressure: each stage goes its own way",
-                     "choose step or time; the numbers are those of faultsweep probability "
+    throw InputError("--against",
+                     "there is no chart against pressure: it runs differently in each stage",
+                     "choose step or time; for the numbers: faultsweep probability "
                      "--against pressure");
   }
   const std::string chart =
@@ -61,7 +62,7 @@ std::string draw_limits(const Store& store, const CampaignInfo& campaign) {
 std::string draw_trade(const Store& store, const CampaignInfo& campaign) {
   const std::optional<TradeRecord> trade = trade_of(store, campaign);
   if (!trade) {
-    throw InputError("trade", "what the cells of " + campaign.name + " cost was not measured",
+    throw InputError("trade", "the cost of the cells of " + campaign.name + " was not measured",
                      "measure it: faultsweep tradeoff SPEC.json");
   }
   const std::string chart = first_chart(to_answer(*trade));
@@ -76,7 +77,7 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
   if (arguments.chart == "sensitivity") {
     const std::string chart = first_chart(what_matters(store, campaign, arguments.sensitivity));
     if (!chart.empty()) return chart;
-    throw InputError("sensitivity", "nothing of this varies", "ask for other --metrics");
+    throw InputError("sensitivity", "none of these metrics varies", "ask for other --metrics");
   }
   if (arguments.chart == "probability") {
     return faultsim::figure::draw(
@@ -96,7 +97,7 @@ std::string draw_campaign(const PlotArguments& arguments, const Store& store) {
 std::string draw_case_of(const PlotArguments& arguments, const faultsim::CaseChartInfo& info,
                          const Store& store) {
   if (arguments.subject.empty() || arguments.subject.ends_with('/')) {
-    throw InputError("subject", concat("a ", info.name, " is of one case"),
+    throw InputError("subject", concat("a ", info.name, " shows one case"),
                      "name it: CAMPAIGN/CASE, or its number");
   }
   const faultsim::MapField show = faultsim::field_shown("--show", arguments.show);
@@ -120,7 +121,7 @@ ExitCode plot(const StoreArguments& common, const PlotArguments& arguments) {
   const Store store = Store::open_reader(common.store);
   const faultsim::CaseChartInfo* info = faultsim::case_chart_named(arguments.chart);
   if (info == nullptr && !arguments.before.empty()) {
-    throw InputError("--before", "is of charts of one case, which " + arguments.chart + " is not",
+    throw InputError("--before", "is for charts of one case, which " + arguments.chart + " is not",
                      "leave it out, or compare campaigns: faultsweep compare");
   }
   faultsim::write_picture(arguments.output, info != nullptr ? draw_case_of(arguments, *info, store)
@@ -156,10 +157,10 @@ void add_pictures(Program& program) {
                       "of a case: another (a number: of the same campaign), as thin lines");
   command->add_option("--x", a.map.x, "map: parameter along the bottom; default: the first");
   command->add_option("--y", a.map.y, "map: parameter along the side; default: the next");
-  command->add_option("--metrics", a.sensitivity.metrics, "sensitivity: as of `sensitivity`");
+  command->add_option("--metrics", a.sensitivity.metrics, "sensitivity: as for `sensitivity`");
   command->add_flag("--by-step", a.sensitivity.by_step, "sensitivity: against time");
-  command->add_option("--of", a.probability.condition, "probability: as of `probability`");
-  command->add_option("--by", a.probability.by, "probability: as of `probability`");
+  command->add_option("--of", a.probability.condition, "probability: as for `probability`");
+  command->add_option("--by", a.probability.by, "probability: as for `probability`");
   const std::map<std::string, CurveAxis> axes = {
       {"step", CurveAxis::step}, {"time", CurveAxis::time}, {"pressure", CurveAxis::pressure}};
   command->add_option("--against", a.curves.axis, "curves: step (default) or time")
@@ -180,7 +181,7 @@ void add_pictures(Program& program) {
       program.add("report", "a campaign as one HTML page that needs no network", report);
   add_campaign(report_command, program.common);
   report_command->add_option("-o,--output", page.output, "file to write: *.html")->required();
-  report_command->add_option("--top", page.request.top, "cases that are drawn (default 3)")
+  report_command->add_option("--top", page.request.top, "how many cases are drawn (default 3)")
       ->check(CLI::Range(0, 50));
   add_confidence(report_command, page.request.confidence);
   page.request.program = faultsim::version_text("faultsweep");

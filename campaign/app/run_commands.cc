@@ -42,7 +42,7 @@ ExitCode run(const StoreArguments& common, const RunArguments& arguments) {
       say("Next: faultsweep rank ", name, " --store ", common.store.string());
       break;
     case ExitCode::interrupted:
-      say("Interrupted, nothing is lost. Next: faultsweep run ", name, " --store ",
+      say("Interrupted; nothing is lost. Next: faultsweep run ", name, " --store ",
           common.store.string());
       break;
     default:
@@ -62,7 +62,7 @@ ExitCode slurm(const StoreArguments& common, const SlurmRequest& request) {
   job.waiting = store.waiting_families(campaign.id);
   print_text(slurm_script(job, request));
   if (job.waiting.empty()) {
-    say("Nothing waits in ", campaign.name);
+    say("No case is waiting in ", campaign.name);
   } else {
     say("Next: faultsweep slurm ", campaign.name, " ... | sbatch");
   }
@@ -76,11 +76,11 @@ void add_running(Program& program, int argc, char** argv) {
   a.argc = argc, a.argv = argv;
   add_campaign(command, program.common);
   add_workers(command, a.n_workers,
-              "workers beside the manager; default: the cores available, or in a Slurm job\n"
-              "its tasks less one");
+              "workers besides the manager; default: the cores available, or in a Slurm\n"
+              "job its tasks less one");
   command
       ->add_option("--hostfile", a.hostfile,
-                   "mpirun's list of hosts; without --workers as many ranks as it has slots")
+                   "mpirun's list of hosts; without --workers, as many ranks as it has slots")
       ->check(CLI::ExistingFile);
   a.progress =
       isatty(STDERR_FILENO) != 0 ? ProgressDisplay::Style::bar : ProgressDisplay::Style::lines;
@@ -104,23 +104,23 @@ void add_running(Program& program, int argc, char** argv) {
       "  faultsweep run                       the newest campaign, on all cores\n"
       "  faultsweep run my-sweep --workers 2\n"
       "  faultsweep run --hostfile hosts --memory \"12 GB\"\n"
-      "Interrupted, it goes on where it stopped: give the same command again.");
+      "If interrupted, give the same command again: it continues where it stopped.");
 
   auto [slurm_command, request] =
       program.add("slurm", "print a script for sbatch that runs a campaign", slurm);
   add_campaign(slurm_command, program.common);
   add_workers(slurm_command, request.n_workers,
-              "tasks beside the manager's; default: enough for half an hour, at most 15");
+              "tasks besides the manager's; default: enough for half an hour, at most 15");
   slurm_command->add_option("--nodes", request.nodes, "default 1")->check(CLI::Range(1, 10000));
   slurm_command->add_option("--time", request.time,
-                            "as sbatch takes it: 12:00:00; default: twice the time predicted");
+                            "as for sbatch: 12:00:00; default: twice the predicted time");
   slurm_command->add_option("--memory-per-node", request.memory_per_node,
-                            "as sbatch takes it: 64G; default: as predicted");
+                            "as for sbatch: 64G; default: as predicted");
   slurm_command->add_option("--partition", request.partition, "default: the cluster's");
   slurm_command->add_option("--account", request.account, "default: yours");
   slurm_command
       ->add_option("--resubmit", request.resubmit,
-                   "how often the job queues itself again when its time was over; default: never")
+                   "how often the job queues itself again when its time is up; default: never")
       ->check(CLI::Range(0, 1000));
   slurm_command->footer(
       "Example: faultsweep slurm my-sweep --workers 31 --nodes 2 --resubmit 3 | sbatch");

@@ -65,7 +65,7 @@ ExitCode serve_store(const StoreArguments& common, const ServeArguments& argumen
                     [&](const HttpRequest& request) { return api.answer(request); });
   running = &server;
   say_address(server, common.json);
-  say("Reading ", common.store.string(), " for this machine only. Ctrl-C ends it.");
+  say("Reading ", common.store.string(), " for this machine only. Ctrl-C stops it.");
   server.run();
   api.close();
   return ExitCode::done;
@@ -75,23 +75,22 @@ ExitCode serve_store(const StoreArguments& common, const ServeArguments& argumen
 
 void add_serving(Program& program) {
   auto [command, a] = program.add(
-      "serve", "answers and drawings of a store over HTTP, for this machine only", serve_store);
+      "serve", "answers and charts of a store over HTTP, for this machine only", serve_store);
   command->add_option("store", program.common.store,
                       "its folder (default FAULTSWEEP_STORE or ./faultsweep-store)");
   constexpr int kLastPort = 65535;
-  command->add_option("--port", a.port, "default 8642; 0 = any that is free")
+  command->add_option("--port", a.port, "default 8642; 0 = any free port")
       ->check(CLI::Range(0, kLastPort));
-  command->add_option("--for", a.duration,
-                      "ends by itself after this time: \"30 min\"; default: at Ctrl-C");
+  command->add_option("--for", a.duration, "stops after this time: \"30 min\"; default: at Ctrl-C");
   add_store(command, program.common);
   add_json(command, program.common);
   command->footer(
       "Examples:\n"
       "  faultsweep serve\n"
       "  faultsweep serve runs/store --port 0 --json\n"
-      "It prints its address when it listens and changes nothing in the store. The page follows\n"
-      "a campaign that runs, and its what-if runs a case with other values on an operator that is\n"
-      "kept at hand. GET /api lists what can be asked for.");
+      "It prints its address once it listens, and changes nothing in the store. The page follows\n"
+      "a running campaign, and its what-if runs a case with other values on an operator kept in\n"
+      "memory. GET /api lists what can be requested.");
 }
 
 }  // namespace faultsweep

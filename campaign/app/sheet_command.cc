@@ -46,7 +46,7 @@ void write_pdf(const SheetArguments& arguments, const std::string& html, std::si
   const std::size_t n_pages = count_pages(*pdf);
   if (n_pages != n_sheets) {
     say("faultsweep: ", arguments.pdf.string(), " has ", n_pages, " pages for ", n_sheets,
-        " sheets: a table of levels or names of stages are too long for one page");
+        " sheets: the table of levels or the names of stages are too long for one page");
   }
 }
 
@@ -81,14 +81,13 @@ ExitCode sheet(const StoreArguments& common, const SheetArguments& arguments) {
 
 void add_sheet(Program& program) {
   auto [command, a] = program.add(
-      "sheet", "what an authority asks of a fault, on one page of A4: the regulator sheet", sheet);
+      "sheet", "what an authority asks about a fault, on one A4 page: the regulator sheet", sheet);
   add_campaign(command, program.common);
   command->add_option("--fault", a.request.fault,
-                      "of which fault; default: each a page of its own");
-  command->add_option("-o,--output", a.output,
-                      "file to write: *.html, a page that needs no network");
+                      "only this fault; default: all, each on a page of its own");
+  command->add_option("-o,--output", a.output, "file to write: *.html, readable without a network");
   command->add_option("--pdf", a.pdf,
-                      "file to write: *.pdf, printed by Chromium where it is installed");
+                      "file to write: *.pdf, printed by Chromium if that is installed");
   command->add_option("--levels", a.levels,
                       "table of escalation levels (JSON, schemas/levels.schema.json); default:\n"
                       "green, amber where chi_bar > 0.8, red where the fault slides");

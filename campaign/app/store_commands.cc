@@ -158,17 +158,17 @@ std::string nothing_to_retry(const Store& store, const CampaignInfo& campaign,
     const long n_early = campaign.n_done - campaign.n_complete();
     if (n_early == 0 || arguments.unconverged) return "no case of " + campaign.name + " failed";
     return concat("no case of ", campaign.name, " failed; ", n_early,
-                  " have a history that ends early: --unconverged lets them run again");
+                  " have a history that ends early: add --unconverged to run them again");
   }
   const StoredCase one = store.stored_case(campaign.id, std::to_string(*arguments.position));
   const std::string name = concat("case ", one.position);
-  if (one.state == "waiting") return name + " waits already";
+  if (one.state == "waiting") return name + " is waiting already";
   if (faultsim::in_equilibrium(one.result.outcome)) {
     return concat(name, " has a full result (", to_string(one.result.outcome),
-                  "): the same scene gives the same numbers");
+                  "): a second run would give the same numbers");
   }
   return concat(name, " has a history that ends early (", to_string(one.result.outcome),
-                "): --unconverged lets it run again");
+                "): add --unconverged to run it again");
 }
 
 ExitCode retry(const StoreArguments& common, const RetryArguments& arguments) {
@@ -176,7 +176,7 @@ ExitCode retry(const StoreArguments& common, const RetryArguments& arguments) {
   Store store = Store::open_writer(common.store);
   const CampaignInfo campaign = store.campaign(common.campaign);
   if (const auto owner = store.owner(); owner && owner->alive && owner->campaign == campaign.id) {
-    throw StorageError(concat(campaign.name, " is running; stop it, or wait for its end"));
+    throw StorageError(concat(campaign.name, " is running; stop it, or wait until it ends"));
   }
   // Throws where there is no such case.
   if (arguments.position) store.stored_case(campaign.id, std::to_string(*arguments.position));
@@ -214,7 +214,7 @@ ExitCode cancel(const StoreArguments& common) {
   }
   const auto owner = store.owner();
   if (owner && owner->alive && owner->campaign == campaign.id) {
-    say("Its manager hands out nothing more and ends with the cases at work.");
+    say("Its manager hands out no more cases and ends when those in progress are done.");
   }
   say("faultsweep submit ", campaign.source, " reopens it.");
   return ExitCode::done;
@@ -274,7 +274,7 @@ ExitCode cache_prune(const StoreArguments& common, const std::string& size) {
     return ExitCode::done;
   }
   std::printf("%llu\n", static_cast<unsigned long long>(freed));
-  say("bytes freed; what is missing is built again when it is needed");
+  say("bytes freed; operators that are missing are built again when needed");
   return ExitCode::done;
 }
 
@@ -290,14 +290,14 @@ ExitCode backup(const StoreArguments& common, const std::filesystem::path& targe
 
 void add_reading(Program& program) {
   auto [status_command, asked] =
-      program.add("status", "how a campaign stands: counts, time left, failures", status);
+      program.add("status", "the state of a campaign: counts, time left, failures", status);
   add_campaign(status_command, program.common);
   add_renderings(status_command, program.common);
   CLI::Option* verify =
       status_command->add_flag("--verify", asked.verify,
-                               "read the whole store instead and check it: structure, references,\n"
+                               "check the whole store instead: structure, references,\n"
                                "checksums");
-  status_command->add_flag("--all", asked.all, "all campaigns of the store, a line each")
+  status_command->add_flag("--all", asked.all, "all campaigns of the store, one line each")
       ->excludes(verify);
   status_command->footer(
       "Examples:\n"
@@ -308,31 +308,32 @@ void add_reading(Program& program) {
 
   auto [command, a] = program.add("rank", "the riskiest configurations first", rank);
   add_campaign(command, program.common);
-  command->add_option("--by", a.request.by,
-                      "metric or expression; default: the spec's, or the area that slides, then\n"
-                      "the area that is open, M0, the pressure margin of inactive cases, and chi");
+  command->add_option(
+      "--by", a.request.by,
+      "metric or expression; default: the spec's, or sliding area, then open area,\n"
+      "M0, the pressure margin of inactive cases, and chi");
   add_stage_and_fault(command, a.request.stage, a.request.fault);
   add_where(command, a.request.where);
   command->add_option("--top", a.request.top, "how many rows; 0 = all")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--skip", a.request.skip,
-                   "rows left out before the first, to read a ranking in pages of --top")
+                   "how many rows to skip first, to read a ranking in pages of --top")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--ascending", a.request.ascending, "smallest first");
   command->add_flag("--list-metrics", a.list_metrics, "what can be ranked by");
   command->add_option("--why", a.why,
-                      "CASE: why it stands where it does: what slides first, what matters\n"
-                      "near it and over the campaign, which places are not told apart");
+                      "CASE: why it ranks where it does: what slides first, what matters near\n"
+                      "it and over the campaign, which places cannot be told apart");
   CLI::Option* certified =
       command
           ->add_option("--certify", a.certify.n,
-                       "run the first so many cases that are interpolated on exact operators, as\n"
-                       "campaign NAME-exact, and compare both")
+                       "run those of the first N cases that have interpolated operators on exact\n"
+                       "ones, as campaign NAME-exact, and compare both")
           ->check(CLI::Range(1, 10000));
   command
       ->add_option("--tolerance", a.certify.tolerance,
-                   "relative, above which certified cases count as other (default 0.01)")
+                   "relative difference up to which certified cases agree (default 0.01)")
       ->check(CLI::PositiveNumber)
       ->needs(certified);
   add_workers(command, a.certify.n_workers, "of --certify; default: the cores available");
@@ -358,8 +359,7 @@ void add_reading(Program& program) {
       "  faultsweep show my-sweep/17 --fault F2 --stage gas_storage\n"
       "  faultsweep show 17 --json");
 
-  auto [explain_command, name] =
-      program.add("explain", "why a case will run, or will not", explain);
+  auto [explain_command, name] = program.add("explain", "why a case will run or will not", explain);
   add_case(explain_command, program.common, name);
   add_renderings(explain_command, program.common);
   explain_command->footer("Example: faultsweep explain my-sweep/17");
@@ -367,7 +367,7 @@ void add_reading(Program& program) {
 
 void add_caring(Program& program) {
   StoreArguments& common = program.common;
-  auto [retry_command, retry_arguments] = program.add("retry", "let failed cases run again", retry);
+  auto [retry_command, retry_arguments] = program.add("retry", "run failed cases again", retry);
   add_campaign(retry_command, common);
   retry_command->add_option("--case", retry_arguments.position, "only this case number");
   retry_command->add_flag("--unconverged", retry_arguments.unconverged,
@@ -378,7 +378,7 @@ void add_caring(Program& program) {
       "  faultsweep retry my-sweep\n"
       "  faultsweep retry --case 17 --unconverged");
 
-  CLI::App* cancel_command = program.add("cancel", "hand out no more cases of a campaign", cancel);
+  CLI::App* cancel_command = program.add("cancel", "stop handing out cases of a campaign", cancel);
   add_campaign(cancel_command, common);
   add_json(cancel_command, common);
   cancel_command->footer(
@@ -405,7 +405,7 @@ void add_caring(Program& program) {
   prune->footer("Example: faultsweep cache prune --max-size \"5 GB\"");
 
   auto [backup_command, target] =
-      program.add("backup", "copy the store's database, also while it is in use", backup);
+      program.add("backup", "copy the store's database, even while it is in use", backup);
   backup_command->add_option("file", target, "new file")->required();
   add_store(backup_command, common);
   backup_command->footer("Example: faultsweep backup before.sqlite");

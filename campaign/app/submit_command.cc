@@ -28,7 +28,7 @@ namespace {
 
 void require_new(const std::filesystem::path& path) {
   if (std::filesystem::exists(std::filesystem::symlink_status(path))) {
-    throw InputError(path.string(), "the file is there already", "choose another folder");
+    throw InputError(path.string(), "the file exists already", "choose another folder");
   }
 }
 
@@ -56,10 +56,11 @@ std::string creep_text(const std::vector<FamilyRecord>& families) {
   }
   if (n_creeping == 0) return "";
   constexpr double kGigabyte = 1e9;
-  return concat("salt creeps in ", counted(n_creeping, "family", "families"),
-                ": operators are built by each worker that runs it, not cached, and stay in its "
-                "memory, at most ",
-                format_number(memory / kGigabyte, 2), " GB per worker\n");
+  return concat(
+      "salt creeps in ", counted(n_creeping, "family", "families"),
+      ": each worker that runs one builds its operators, does not cache them, and keeps them in "
+      "memory, at most ",
+      format_number(memory / kGigabyte, 2), " GB per worker\n");
 }
 
 /// Of a ladder, or of a surface with its check points.
@@ -80,9 +81,9 @@ std::string predicted_text(const SubmitReport& report) {
     n_exact += alone;
     exact_seconds += one.operator_seconds / n * static_cast<double>(alone);
   }
-  const std::string all = concat("predicted: ", counted(n_operators, "operator", "operators"), ", ",
-                                 format_duration(report.operator_seconds()),
-                                 " for those that are not cached, on one core\n");
+  const std::string all =
+      concat("predicted: ", counted(n_operators, "operator", "operators"), ", ",
+             format_duration(report.operator_seconds()), " for those not cached, on one core\n");
   if (n_exact == n_operators) return all;
   return concat(all, "with exact operators alone: ", counted(n_exact, "operator", "operators"),
                 ", ", format_duration(exact_seconds), "\n");
@@ -118,13 +119,13 @@ std::string report_to_text(const SubmitReport& report) {
   std::string text =
       concat(s.name, ": ", counted(s.cases.size(), "case", "cases"), " in ",
              counted(s.families.size(), "family", "families"), "; ", report.expansion.n_designed,
-             " designed, ", s.n_excluded, " excluded, ", s.n_merged, " merged as the same, ",
+             " designed, ", s.n_excluded, " excluded, ", s.n_merged, " merged as identical, ",
              report.outcome.n_cached, " have a result already\n");
   if (const KeepFields keep = report.outcome.keep_fields; keep != KeepFields::none) {
     text += kept_fields_text(keep);
     if (are_of_all_cases(keep) && report.outcome.n_fields > 0) {
       text += concat("; ", report.outcome.n_fields,
-                     " cases with a result lack them and are run again for them alone");
+                     " cases with a result lack them and are run again just for these");
     }
     text += "\n";
   }
@@ -174,7 +175,7 @@ void check_memory_limit(const std::string& spec, SubmitReport& report) {
   if (n_too_large == static_cast<long>(report.submission.families.size())) {
     throw InputError(
         spec, {{"/policy/memory_limit", 0,
-                concat("no operator of this campaign can be built in ", megabytes(*limit), " MB"),
+                concat("no operator of this campaign fits into ", megabytes(*limit), " MB"),
                 concat("the smallest is predicted to need ", megabytes(least), " MB, the largest ",
                        megabytes(most), " MB")}});
   }
@@ -202,7 +203,7 @@ SubmitOutcome stored(const std::filesystem::path& folder, const Submission& subm
   if (!store.remark().empty()) say(store.remark());
   SubmitOutcome outcome = store.submit(submission);
   if (outcome.existed) {
-    say(outcome.name, " is in the store already: nothing added, `faultsweep run` resumes it");
+    say(outcome.name, " is in the store already: nothing was added; `faultsweep run` resumes it");
   } else if (outcome.name != submission.name) {
     say("another campaign is called ", submission.name, ": this one becomes ", outcome.name);
   }
@@ -264,7 +265,7 @@ void add_submitting(Program& program) {
   auto [submit_command, a] =
       program.add("submit", "check and expand a spec and store its cases", submit);
   submit_command->add_option("spec", a.spec, "spec file (JSON)")->required();
-  submit_command->add_flag("--dry-run", a.dry_run, "only show what it would be");
+  submit_command->add_flag("--dry-run", a.dry_run, "only show what would be stored");
   add_store(submit_command, program.common);
   add_json(submit_command, program.common);
   add_wide(submit_command);

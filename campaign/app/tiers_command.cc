@@ -43,16 +43,17 @@ ordered_json read_spec(const TiersArguments& arguments) {
                          spec.groups[0].designs[0].kind == DesignKind::monte_carlo;
   std::vector<Problem> problems;
   if (!is_sample) {
-    problems.push_back({"/design", spec.document.line_of("/design"),
-                        "tiers share the first samples of one monte-carlo design",
-                        "make it one; other designs have no first samples that are a sample"});
+    problems.push_back(
+        {"/design", spec.document.line_of("/design"),
+         "the spec is not a single monte-carlo design, whose first samples both tiers share",
+         "make it one; the first rows of other designs are not a random sample"});
   }
   if (spec.staged_sample || !spec.limits.empty()) {
-    problems.push_back(
-        {"/", 0, "a spec with rounds or limits goes on by itself", "remove that section"});
+    problems.push_back({"/", 0, "a spec with rounds or limits chooses further cases itself",
+                        "remove that section"});
   }
   if (arguments.tiers.size() != 2 || arguments.tiers[0] == arguments.tiers[1]) {
-    problems.push_back({"--tiers", 0, "two tiers are compared",
+    problems.push_back({"--tiers", 0, "these are not two different tiers",
                         "write --tiers screening,standard: the cheap one first"});
   }
   if (!problems.empty()) throw InputError(arguments.source, problems);
@@ -89,38 +90,37 @@ ExitCode tiers(const StoreArguments& common, const TiersArguments& arguments) {
 }  // namespace
 
 void add_tiers(Program& program) {
-  auto [command, t] =
-      program.add("tiers", "what an expensive tier says of a sample, from few of its cases", tiers);
+  auto [command, t] = program.add(
+      "tiers", "answers of an expensive tier from a cheap sample and few expensive cases", tiers);
   command->add_option("source", t.source, "spec (JSON) with a monte-carlo design")->required();
   command
       ->add_option("--tier-budget", t.budget,
-                   "how many of the samples are run at the expensive tier; all at the cheap one")
+                   "how many samples are run at the expensive tier; all run at the cheap one")
       ->required()
       ->check(CLI::Range(20, 100000));
   command
       ->add_option("--tiers", t.tiers,
-                   "the cheap one and the expensive one (default screening,standard)")
+                   "the cheap and the expensive tier (default screening,standard)")
       ->delimiter(',');
-  command->add_option(
-      "--metrics", t.request.metrics,
-      "whose means are wanted, with commas; default, unless quantiles are: chi_bar\n"
-      "of each fault");
+  command->add_option("--metrics", t.request.metrics,
+                      "metrics whose means are wanted, comma-separated; default, without\n"
+                      "--quantiles: chi_bar of each fault");
   command
       ->add_option("--of", t.request.conditions,
-                   "condition whose probability is wanted, as of `rank --where`; may be given\n"
-                   "again; default, unless quantiles are: that each fault slides, in each stage")
+                   "condition whose probability is wanted, as for `rank --where`; may be\n"
+                   "repeated; default, without --quantiles: each fault slides, in each stage")
       ->allow_extra_args(false);
-  CLI::Option* quantiles =
-      command->add_option("--quantiles", t.request.quantiles,
-                          "metrics whose quantiles are wanted, with commas, as of `probability`");
-  command->add_option("--at", t.request.at, "shares of the cases below (default 0.05,0.5,0.95)")
+  CLI::Option* quantiles = command->add_option(
+      "--quantiles", t.request.quantiles,
+      "metrics whose quantiles are wanted, comma-separated, as for `probability`");
+  command->add_option("--at", t.request.at, "levels of the quantiles (default 0.05,0.5,0.95)")
       ->delimiter(',')
       ->needs(quantiles);
   command
       ->add_option("--width", t.request.width,
-                   "wanted distance of the bounds of probabilities, as a share: the cases of\n"
-                   "each tier that take the least time for it, for a half and a quarter of it;\n"
-                   "of other answers for a half and a quarter of what it is")
+                   "wanted distance of the bounds of probabilities, as a share: says which\n"
+                   "numbers of cases reach it, its half and its quarter in the least time;\n"
+                   "for other answers, half and a quarter of the present distance")
       ->check(CLI::Range(1e-4, 1.0));
   add_workers(command, t.run.n_workers, "of the runs; default: the cores available");
   add_build_limits(command, t.run);
@@ -133,8 +133,8 @@ void add_tiers(Program& program) {
       "  faultsweep tiers sample.json --tier-budget 100 --tiers screening,demonstration --json\n"
       "  faultsweep tiers sample.json --tier-budget 60 --quantiles F2.chi_bar --at 0.5,0.95\n"
       "  faultsweep tiers sample.json --tier-budget 60 --of F2.slides --width 0.02\n"
-      "Campaigns NAME-screening and NAME-standard are submitted and run; give the command again to "
-      "go on.");
+      "Campaigns NAME-screening and NAME-standard are submitted and run; to continue, give the\n"
+      "command again.");
 }
 
 }  // namespace faultsweep

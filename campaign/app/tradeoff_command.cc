@@ -68,11 +68,11 @@ TradeQuestion read_question(const TradeoffArguments& arguments) {
     return question;
   }
   if (arguments.tiers.size() < 2) {
-    throw InputError("--tiers", "one tier is nothing to compare",
+    throw InputError("--tiers", "one tier alone cannot be compared",
                      "write --tiers screening,standard");
   }
   if (!arguments.settings.empty()) {
-    throw InputError("--set", "a spec has its own \"set\"", "put it there");
+    throw InputError("--set", "a spec has a \"set\" of its own", "put it there");
   }
   question.cases = expand(read_campaign(arguments.source));
   question.scene = {question.cases->spec.scene_source, question.cases->spec.groups[0].scene, {}};
@@ -197,28 +197,29 @@ ExitCode tradeoff(const StoreArguments& common, const TradeoffArguments& argumen
 
 void add_tradeoff(Program& program) {
   auto [command, t] = program.add(
-      "tradeoff", "measure on a scene what each choice costs in accuracy and in time", tradeoff);
+      "tradeoff", "measure what each modelling choice costs in accuracy and time on a scene",
+      tradeoff);
   command->add_option("source", t.source, "scene, or campaign spec (JSON)")->required();
   command->add_option("--set", t.settings, "/json/pointer=value of the scene");
   command
       ->add_option("--error", t.wanted_chi,
-                   "of the critical index, to recommend a mesh for (default 0.02)")
+                   "error of the critical index to recommend a mesh for (default 0.02)")
       ->check(CLI::PositiveNumber);
   command
       ->add_option("--operator-limit", t.operator_seconds,
-                   "s; choices whose operator is predicted to take longer are left out\n"
+                   "in s; choices whose operator is predicted to take longer are left out\n"
                    "(default 300)")
       ->check(CLI::PositiveNumber);
   command->add_option("--memory", t.memory,
-                      "the same for memory: \"12 GB\"; default: 0.8 of what is available");
+                      "the same for memory: \"12 GB\"; default: 0.8 of the memory available");
   command
       ->add_option("--cases", t.n_cases, "of a spec: how many are ranked at each tier (default 32)")
       ->check(CLI::Range(2, 100000));
   command
       ->add_option("--tiers", t.tiers,
-                   "with commas, the last is the reference (default screening,standard)")
+                   "comma-separated, the last is the reference (default screening,standard)")
       ->delimiter(',');
-  add_workers(command, t.n_workers, "default 1: two disturb each other's times");
+  add_workers(command, t.n_workers, "default 1: two would distort each other's times");
   command->add_option("-o,--output", t.output, "folder for report.md, trade.json and figures");
   command->add_flag("--dry-run", t.dry_run, "only show the choices and their predicted cost");
   add_store(command, program.common);
@@ -229,7 +230,7 @@ void add_tradeoff(Program& program) {
       "  faultsweep tradeoff scene.json --dry-run\n"
       "  faultsweep tradeoff scene.json --error 0.01 -o trade\n"
       "  faultsweep tradeoff campaign.json --cases 16 --tiers screening,demonstration\n"
-      "Interrupted, it goes on where it stopped: give the same command again.");
+      "If interrupted, give the same command again: it continues where it stopped.");
 }
 
 }  // namespace faultsweep

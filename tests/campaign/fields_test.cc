@@ -125,7 +125,7 @@ TEST_F(Fields, AreAddedToStoredResultsWhichStay) {
   const json before = show("plain/1");
   EXPECT_TRUE(before["fields"].is_null());
   const std::string said = submit_angles("kept", {"10 deg", "20 deg", "30 deg"}, "stages");
-  EXPECT_THAT(said, HasSubstr("2 cases with a result lack them and are run again for them alone"));
+  EXPECT_THAT(said, HasSubstr("2 cases with a result lack them and are run again just for these"));
   const auto end = faultsweep({"run", "kept", "--workers", "2"});
   ASSERT_EQ(end.code, 0) << end.err;
   const json after = show("kept/1");

@@ -153,7 +153,7 @@ TEST_F(Running, CancelAndRetrySayWhatTheyDidAndHowToGoOn) {
   EXPECT_GT(left.n_waiting, 0) << end.err;
   EXPECT_EQ(left.n_done + left.n_failed + left.n_waiting, 8);
   EXPECT_THAT(text("cancel"), HasSubstr("sweep is cancelled with "));
-  EXPECT_THAT(text("cancel"), HasSubstr("Its manager hands out nothing more"));
+  EXPECT_THAT(text("cancel"), HasSubstr("Its manager hands out no more cases"));
   const auto again = faultsweep({"cancel"});
   EXPECT_EQ(again.code, 0);
   EXPECT_THAT(again.err, HasSubstr("sweep was already cancelled with " +
