@@ -48,9 +48,10 @@ class Expander {
       result_.families[one.family].cases.push_back(one.index);
     }
     if (result_.cases.empty()) {
-      problems_.push_back({"/design", result_.spec.document.line_of("/design"),
-                           "no case is left of " + std::to_string(result_.n_designed),
-                           "every case is excluded; loosen exclude"});
+      problems_.push_back(
+          {"/design", result_.spec.document.line_of("/design"),
+           "every one of " + std::to_string(result_.n_designed) + " cases is excluded",
+           "relax a condition of exclude"});
       throw_problems();
     }
     write_notes();
@@ -84,8 +85,8 @@ class Expander {
     add({{place, result_.spec.document.line_of(place),
           std::string("leaves out a row of the ") + to_string(design.kind) + " design " +
               design.pointer + ", which needs all of them (where " + row + ")",
-          "narrow the ranges, or use latin-hypercube, whose excluded samples are left out and "
-          "counted"}});
+          "narrow the ranges, or use latin-hypercube, which leaves out and counts excluded "
+          "samples"}});
   }
 
   void note_drawn(const std::vector<std::string>& names, const Group& group) {
@@ -96,9 +97,9 @@ class Expander {
     result_.notes.push_back(
         list + " of " + group.pointer +
         (names.size() == 1 ? " is drawn from a range and changes the operator: each of its values "
-                             "is a family of its own; a list of a few values shares operators"
+                             "is a family of its own; values of a short list would share operators"
                            : " are drawn from ranges and change the operator: each row is a family "
-                             "of its own; lists of a few values share operators"));
+                             "of its own; values of short lists would share operators"));
   }
 
   void expand_group(int index) {
@@ -139,7 +140,8 @@ class Expander {
         add(found);
         if (++n_wrong < kMaximumWrongCases) continue;
         add({{group.pointer, result_.spec.document.line_of(group.pointer),
-              "more combinations may be wrong: checking stopped after " + std::to_string(n_wrong),
+              "checking stopped after " + std::to_string(n_wrong) +
+                  " wrong combinations: there may be more",
               "exclude them or change the values"}});
         return;
       }
@@ -257,24 +259,25 @@ class Expander {
       const std::size_t n_families = result_.families.size();
       result_.notes.push_back(std::to_string(n_families - families_.n_estimated) + " of " +
                               std::to_string(n_families) +
-                              " families were planned, spread over the design; the sizes of the "
-                              "others are taken to be those of the planned one before them");
+                              " families were planned, spread over the design; each other one is "
+                              "assumed to have the size of the planned one before it");
     }
     for (const Group& group : result_.spec.groups) {
       for (const Design& design : group.designs) {
         if (design.kind != DesignKind::sobol || (design.n & (design.n - 1)) == 0) continue;
-        result_.notes.push_back(std::to_string(design.n) + " samples of " + design.pointer +
-                                " are not a power of two: the sequence is balanced only at those");
+        result_.notes.push_back(
+            std::to_string(design.n) + " samples of " + design.pointer +
+            " are not a power of two: the sequence is balanced only at powers of two");
       }
     }
     if (result_.n_merged > 0) {
       result_.notes.push_back(
           std::to_string(result_.n_merged) + (result_.n_merged == 1 ? " case is" : " cases are") +
-          " the same as an earlier one and run once (the first: " + first_merged_ + ")");
+          " identical to an earlier one and run once (the first: " + first_merged_ + ")");
     }
     for (const ExcludedCases& one : result_.excluded) {
       if (one.n_cases == 0) {
-        result_.notes.push_back("nothing is excluded by \"" + one.reason + "\"");
+        result_.notes.push_back("\"" + one.reason + "\" excludes nothing");
       }
     }
     note_distributions();
@@ -287,7 +290,7 @@ class Expander {
     for (std::size_t i = 0; i < std::min(kShown, remarks.size()); ++i)
       result_.notes.push_back(remarks[i].text + " (first where " + remarks[i].where + ")");
     if (remarks.size() > kShown)
-      result_.notes.push_back(std::to_string(remarks.size() - kShown) + " more of that kind");
+      result_.notes.push_back(std::to_string(remarks.size() - kShown) + " more of this kind");
   }
 
   /// Leaving cases out changes how the parameters of the others are distributed.
@@ -305,10 +308,10 @@ class Expander {
     };
     const auto& groups = result_.spec.groups;
     if (n_excluded == 0 || std::ranges::none_of(groups, is_stated)) return;
-    result_.notes.push_back(
-        std::to_string(n_excluded) +
-        " samples are excluded: the others have other distributions and correlations than those "
-        "given, and probabilities are those of what is not excluded");
+    result_.notes.push_back(std::to_string(n_excluded) +
+                            " samples are excluded: distributions and correlations of the rest "
+                            "differ from those given, "
+                            "and probabilities are those of the rest");
   }
 
   Expansion result_;

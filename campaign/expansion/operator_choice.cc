@@ -123,8 +123,7 @@ class OperatorChoice {
     const long n_rows = count_rows(group_);
     if (is_automatic() && n_rows < n_operators_) {
       notes.push_back(concat("operators of ", where(), " are exact: a surface over ", names(),
-                             " would take about ", n_operators_, ", and there are ", n_rows,
-                             " rows"));
+                             " would take about ", n_operators_, ", for only ", n_rows, " rows"));
       return;
     }
     json over = json::array();
@@ -160,7 +159,7 @@ class OperatorChoice {
   std::string of_exact_rows() const {
     if (n_exact_ == 0) return "";
     return concat("; ", n_exact_, n_exact_ == 1 ? " row has" : " rows have",
-                  " exact ones, where lines of the mesh meet or a surface would serve too few");
+                  " exact ones, where mesh lines meet or a surface would serve too few rows");
   }
 
   json section_of(const Axis& axis) {
@@ -212,11 +211,12 @@ void choose(const CampaignSpec& spec, Group& group, std::vector<std::string>& no
   OperatorChoice choice(spec, group, scene);
   if (choice.has_axes()) return choice.put(notes);
   if (spec.operators.kind == OperatorPolicy::Kind::automatic) return;
-  problems.push_back({"/operators/policy", spec.document.line_of("/operators/policy"),
-                      concat("nothing in ", group.pointer,
-                             " that changes the operator is drawn from a range with ends"),
-                      "draw moduli, dips or an offset from ranges, give distributions \"from\" and "
-                      "\"to\", or take \"automatic\""});
+  problems.push_back(
+      {"/operators/policy", spec.document.line_of("/operators/policy"),
+       concat("nothing in ", group.pointer,
+              " that changes the operator is drawn from a bounded range"),
+       "draw moduli, dips or an offset from ranges and give distributions \"from\" and "
+       "\"to\", or write \"automatic\""});
 }
 
 }  // namespace

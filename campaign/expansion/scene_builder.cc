@@ -37,7 +37,7 @@ const faultsim::ChangedScene* SceneBuilder::scene(const Row& row,
     const Derived& one = spec_.derived[d];
     problems.push_back({one.pointer, spec_.document.line_of(one.pointer),
                         "\"" + one.text + "\" has no value where " + describe(row),
-                        "a name in it has no value in the scene, or a division is by zero"});
+                        "use names that have a value in the scene, and do not divide by zero"});
   }
   std::vector<Problem> found;
   const std::vector<std::string> placeless = faultsim::change_scene(

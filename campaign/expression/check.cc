@@ -61,7 +61,7 @@ class Checker {
 
   void require_number(const Node& node) const {
     if (node.type.kind == Kind::number) return;
-    fail(node, sentence(node) + " where a number is wanted",
+    fail(node, sentence(node) + " where a number is needed",
          node.type.kind == Kind::text ? "write a number with its unit" : "compare numbers here");
   }
 
@@ -149,7 +149,7 @@ class Checker {
   void check_logical(Node& node) const {
     for (const auto& child : node.children) {
       if (child->type.kind != Kind::boolean) {
-        fail(*child, sentence(*child) + " where a condition is wanted",
+        fail(*child, sentence(*child) + " where a condition is needed",
              "compare it with something, for example > 0");
       }
     }

@@ -56,7 +56,8 @@ class Parser {
     throw ExpressionError(text_, position, what, cure);
   }
   [[noreturn]] void fail_unexpected() const {
-    if (at_end()) fail(position_, "the expression ends too early", "a value is missing here");
+    if (at_end())
+      fail(position_, "the expression ends too early", "add the value that is missing here");
     const char c = text_[position_];
     if (text_.compare(position_, 2, "&&") == 0) fail(position_, "\"&&\" is unknown", "write and");
     if (text_.compare(position_, 2, "||") == 0) fail(position_, "\"||\" is unknown", "write or");
@@ -306,7 +307,7 @@ class Parser {
     const bool is_name = is_known(std::string(word));
     fail(position_, "unknown unit \"" + unit + "\"",
          is_name ? "write " + digits + " * " + std::string(word)
-                 : "known are for example m, km, m2, bar, MPa, GPa, deg, year");
+                 : "some known units: m, km, m2, bar, MPa, GPa, deg, year");
   }
 
   NodePointer parse_word() {
@@ -370,7 +371,7 @@ class Parser {
     if (const auto near = nearest(word, known_)) {
       cure = "did you mean " + *near + "?";
     } else {
-      cure = known_.empty() ? "no names are known here" : "known are";
+      cure = known_.empty() ? "no names are known here" : "known names:";
       for (std::size_t i = 0; i < std::min<std::size_t>(known_.size(), 12); ++i) {
         cure += (i == 0 ? " " : ", ") + known_[i];
       }
@@ -396,8 +397,9 @@ class Parser {
     const auto operation = function_named(word);
     if (!operation) {
       const auto near = nearest(word, functions());
-      fail(start, "unknown function \"" + word + "\"",
-           near ? "did you mean " + *near + "?" : "known are min max abs sqrt log10 exp tan");
+      fail(
+          start, "unknown function \"" + word + "\"",
+          near ? "did you mean " + *near + "?" : "known functions: min max abs sqrt log10 exp tan");
     }
     const std::size_t open = position_;
     accept("(");

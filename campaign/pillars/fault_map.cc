@@ -114,7 +114,7 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
   const auto any = std::ranges::find(lines, "", &PlaceLine::refused);
   if (any == lines.end())
     throw InputError(places_file.string(), "none of its places is a case",
-                     "take the places.csv that the campaign was made with");
+                     "use the places.csv that was written with the campaign");
   const Selection selection = make_selection(store, campaign, "", any->section_fault);
   const std::map<std::string, ScopedMetric> known = known_metrics(selection);
   FaultMap map;
@@ -129,7 +129,7 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
     map.properties.push_back({one.name, one.unit, metric.description, {}});
     query.columns.push_back({metric.sql, {}});
   }
-  map.properties.push_back({"first_sliding_time", "year", "when it was first seen to slide", {}});
+  map.properties.push_back({"first_sliding_time", "year", "when it was first found to slide", {}});
   fill_refused(map);
   const std::vector<FaultMap::Place*> cases = cases_of(map, lines);
   const std::map<long, double> times = first_times(store, campaign, map.fault);
@@ -144,7 +144,7 @@ FaultMap make_fault_map(const Store& store, const CampaignInfo& campaign,
     throw InputError(places_file.string(),
                      concat(counted(cases.size(), "place", "places"), ", but ", campaign.name,
                             " has ", counted(n_rows, "pillar", "pillars")),
-                     "take the places.csv that the campaign was made with");
+                     "use the places.csv that was written with the campaign");
   return map;
 }
 

@@ -29,8 +29,8 @@ constexpr FrameProperty kFrameProperties[] = {
     {"slides", "1", "has begun to slide"},
     {"chi_bar", "1", "critical index"},
     {"max_slip", "mm", "largest slip since the start"},
-    {"pressure_change_footwall", "bar", "of the western block, a mean with a flow field"},
-    {"pressure_change_hanging_wall", "bar", "of the eastern block"},
+    {"pressure_change_footwall", "bar", "in the western block; with a flow field, its mean"},
+    {"pressure_change_hanging_wall", "bar", "in the eastern block"},
 };
 constexpr std::size_t kProperties = std::size(kFrameProperties);
 

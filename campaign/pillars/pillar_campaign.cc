@@ -171,7 +171,7 @@ Problem in_table(Problem problem, const std::vector<Setting>& settings, const Pi
     if (problem.pointer != field.at) continue;
     problem.what = concat(problem.pointer, ": ", problem.what);
     problem.pointer = concat(table.heading(Role::x), ", ", table.heading(Role::y));
-    problem.cure = concat("leave the pillar out, or say where the x = y = 0 of the pillars is: ",
+    problem.cure = concat("leave the pillar out, or state where x = y = 0 of the pillars lies: ",
                           problem.cure);
     return problem;
   }
@@ -266,7 +266,8 @@ void CampaignMaker::require_columns() const {
   const bool has_azimuth = table_.numbers.contains(Role::azimuth);
   const char* const cure = "add a column \"azimuth [deg]\"";
   if (stress_ && !has_azimuth)
-    throw InputError(table_.source, "ratios by direction need the strike of each pillar", cure);
+    throw InputError(table_.source, "stress ratios by direction need the strike of each pillar",
+                     cure);
   if (scene_.has_field() && !has_azimuth)
     throw InputError(table_.source, "a flow result needs the strike of each pillar", cure);
   sections_.require_date(table_);
@@ -279,7 +280,7 @@ std::vector<Setting> CampaignMaker::settings_of(std::size_t pillar) const {
     settings.push_back({pointers_[k], one.unit, one.values[pillar], one.heading});
   }
   if (settings.empty() && !scene_.has_field())
-    throw InputError(table_.source, "nothing differs from pillar to pillar",
+    throw InputError(table_.source, "all pillars are the same",
                      "add columns: depth, offset, thickness, dip, azimuth or any "
                      "parameter that `faultsim parameters` lists");
   return settings;

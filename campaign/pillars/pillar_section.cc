@@ -46,10 +46,11 @@ Section::Section(const Scene& base, const JsonDocument& document) : base_(base) 
   const bool fits = base.geometry_kind == faultsim::GeometryKind::field &&
                     field.blocks.size() == 2 && base.faults.size() == 3;
   if (!fits) {
-    throw InputError(document.source,
-                     {{"/geometry", document.line_of("/geometry"),
-                       "pillars are sections of a field with two blocks and a fault between",
-                       "start from `faultsim init`, and keep two blocks"}});
+    throw InputError(
+        document.source,
+        {{"/geometry", document.line_of("/geometry"),
+          "pillars need the section of a field with two blocks and a fault between them",
+          "start from `faultsim init`, and keep two blocks"}});
   }
   while (field.layers[layer_].name != field.reservoir_layer) ++layer_;
   reservoir_ = faultsim::reservoir_range(field);
@@ -60,9 +61,9 @@ Section::Section(const Scene& base, const JsonDocument& document) : base_(base) 
 void Section::require_date(const PillarTable& table) const {
   if (table.until.empty() || ends_at_date_) return;
   throw InputError(table.source,
-                   concat("the histories of pillars end at dates, and ", last_stage_,
-                          " of the scene after a duration"),
-                   "end it with \"until\": \"2005-07-31\" in place of \"duration\"");
+                   concat("histories of pillars end at dates, but ", last_stage_,
+                          " of the scene ends after a duration"),
+                   "write \"until\": \"2005-07-31\" instead of \"duration\"");
 }
 
 std::vector<Setting> Section::settings(const PillarTable& table, std::size_t pillar,

@@ -18,7 +18,7 @@ using faultsim::TableReader;
 namespace {
 
 constexpr std::size_t kMostBytes = 200'000'000;
-constexpr const char* kPillarCure = "give a line of columns, and a line for each pillar";
+constexpr const char* kPillarCure = "write a line of column names, then a line for each pillar";
 
 struct RoleInfo {
   PillarRole role;
@@ -110,8 +110,8 @@ class Reader {
     if (role == kRoles.end()) {
       if (!own.words.empty())
         reader_.refuse(
-            table_quote(own.text) + " ends with " + table_quote(own.words) + " behind its unit",
-            "end it with its unit");
+            table_quote(own.text) + " ends with " + table_quote(own.words) + " after its unit",
+            "remove what follows the unit");
       column.parameter = static_cast<int>(table_.parameters.size());
       table_.parameters.push_back({own.name, own.unit.value_or(""), {}, given});
       return;
@@ -141,7 +141,7 @@ class Reader {
     }
     const bool one_side = has(PillarRole::thickness_foot) != has(PillarRole::thickness_hanging);
     if (one_side || (has(PillarRole::thickness) && has(PillarRole::thickness_foot)))
-      reader_.refuse("the thickness is not that of both sides",
+      reader_.refuse("the thickness is given for one side only, or twice",
                      "give \"thickness\", or \"thickness_foot\" and \"thickness_hanging\"");
     if (has(PillarRole::dip) && has(PillarRole::dip_from_horizontal))
       reader_.refuse("there are two dips", "give one of them");
@@ -161,10 +161,10 @@ class Reader {
     for (std::size_t k = 0; k < columns_.size(); ++k) read_cell(k, line);
     if (!ids_.insert(line.id).second) {
       const auto heading = table_.headings.find(PillarRole::id);
-      line.refused.problems.push_back({heading == table_.headings.end() ? "" : heading->second,
-                                       reader_.line(),
-                                       concat("pillar ", table_quote(line.id), " was there before"),
-                                       "give each pillar an id of its own"});
+      line.refused.problems.push_back(
+          {heading == table_.headings.end() ? "" : heading->second, reader_.line(),
+           concat("pillar ", table_quote(line.id), " is on an earlier line"),
+           "give each pillar an id of its own"});
     }
     if (line.refused.problems.empty()) return keep_pillar(line);
     line.refused.id = line.id;

@@ -78,7 +78,7 @@ std::vector<PlaceLine> read_places(const std::filesystem::path& file) {
     const bool is_known = n_columns == kColumns || n_columns == kOlderColumns;
     if (!is_known || fields.size() != n_columns || is_header != (fields[0] == "id"))
       throw InputError(file.string(), {{"", number, "is not a line of places.csv",
-                                        "take the file that `faultsweep pillars` wrote"}});
+                                        "use the file that `faultsweep pillars` wrote"}});
     if (!is_header) places.push_back(line_of(fields));
   }
   return places;

@@ -103,8 +103,8 @@ std::optional<Parameter> SpecReader::read_parameter(const std::string& pointer,
       if (value.contains(kind) && !is_end) found.emplace_back(kind);
     }
     if (found.size() != 1) {
-      const std::string what =
-          found.empty() ? "says not how it varies" : "has both " + found[0] + " and " + found[1];
+      const std::string what = found.empty() ? "does not say how it varies"
+                                             : "has both " + found[0] + " and " + found[1];
       problem(pointer, "\"" + name + "\" " + what,
               "give one of values, from/to/count, distribution, scale/factors, variants");
     } else if (found[0] == "scale") {
@@ -144,7 +144,7 @@ void SpecReader::check_stray_keys(const std::string& pointer) {
     }
   }
   if (value.contains("pointers") && (value.contains("scale") || value.contains("variants"))) {
-    problem(pointer + "/pointers", "pointers go with values or a range", "remove pointers");
+    problem(pointer + "/pointers", "pointers need values or a range", "remove pointers");
   }
 }
 
@@ -171,7 +171,7 @@ void SpecReader::check_change_count(Parameter& parameter) {
   problem(parameter.pointer,
           std::to_string(n_values) + " values for " + std::to_string(parameter.targets.size()) +
               " places",
-          "their product may be " + std::to_string(kMost) + "; use fewer of one of them");
+          "their product may be at most " + std::to_string(kMost) + "; use fewer of either");
   parameter.targets.clear();
 }
 
@@ -256,7 +256,7 @@ void SpecReader::read_range(const SceneNames& names, Parameter& parameter, Desig
     return;
   }
   if (*from->si == *to->si) {
-    problem(pointer + "/to", "the range is empty: from and to are the same", "give two values");
+    problem(pointer + "/to", "the range is empty: from and to are equal", "give two values");
     return;
   }
   const long double end =
@@ -363,12 +363,15 @@ bool SpecReader::check_distribution(const std::string& pointer, const Marginal& 
   const bool is_log = m.distribution == Distribution::log_normal;
   const bool is_triangle = m.distribution == Distribution::triangular;
   if (m.from >= m.to)
-    problem(pointer + "/to", "the distribution is cut at no more than from", "give a larger one");
+    problem(pointer + "/to", "the distribution is cut at a value not above from",
+            "give a larger one");
   if (is_log && (m.centre <= 0 || m.from < 0))
-    problem(pointer + "/median", "a log-normal has values above zero only", "give such numbers");
+    problem(pointer + "/median", "a log-normal distribution has only values above zero",
+            "give numbers above zero");
   if (is_log && m.spread <= 1)
     problem(pointer + "/factor", "the factor of a log-normal is not above 1",
-            "two thirds of the values lie between median / factor and median * factor");
+            "give a larger one: two thirds of the values lie between median / factor and median * "
+            "factor");
   if (m.distribution == Distribution::normal && m.spread <= 0)
     problem(pointer + "/deviation", "the deviation is not above zero", "give a larger one");
   if (is_triangle && (m.centre < m.from || m.centre > m.to))
@@ -378,15 +381,15 @@ bool SpecReader::check_distribution(const std::string& pointer, const Marginal& 
     return is_log ? std::log(end / m.centre) / std::log(m.spread) : (end - m.centre) / m.spread;
   };
   if (!is_triangle && (deviations(m.from) > kFar || deviations(m.to) < -kFar))
-    problem(pointer + "/distribution", "nothing of it lies between from and to",
-            "widen them: they are more than 8 deviations away");
+    problem(pointer + "/distribution", "no part of it lies between from and to",
+            "widen the range: it is more than 8 deviations away");
   for (const int u : {0, 1}) {
     if (problems_.size() == before && !std::isfinite(static_cast<double>(m.quantile(u))))
       problem(pointer + "/distribution", "it reaches numbers that are too large",
               "give from and to, or less spread");
   }
   if (design == DesignKind::morris && (!std::isfinite(m.to) || !std::isfinite(deviations(m.from))))
-    problem(pointer + "/distribution", "morris goes to both ends, and there is none",
+    problem(pointer + "/distribution", "a morris design uses both ends, and one is missing",
             "give from and to");
   return problems_.size() == before;
 }
@@ -413,7 +416,7 @@ void SpecReader::read_scale(const SceneNames& names, Parameter& parameter) {
     if (base.is_null() && info != nullptr) base = info->value;
     const auto parts = base.is_primitive() && !base.is_null() ? split(base) : std::nullopt;
     if (!parts) {
-      problem(here, *target + " has no number in the base scene to multiply",
+      problem(here, *target + " has no number to multiply in the base scene",
               "give values instead");
       continue;
     }

@@ -96,7 +96,7 @@ bool SpecReader::check_group_count() {
   if (count <= kMost) return true;
   problem("/design", concat(count, " groups"),
           concat("a campaign has at most ", kMost,
-                 " groups; make a parameter with variants of what they set"));
+                 " groups; use a parameter with variants for what they set"));
   return false;
 }
 
@@ -105,7 +105,8 @@ bool SpecReader::check_count() {
   n_cases_ = all.n * count_scan();
   if (n_cases_ <= static_cast<long double>(kMaximumCases)) return true;
   problem("/design", concat(digits(n_cases_), " cases (", all.words, ")"),
-          concat("a campaign has at most ", kMaximumCases, " cases; use fewer values or split it"));
+          concat("a campaign has at most ", kMaximumCases,
+                 " cases; use fewer values or split the campaign"));
   return false;
 }
 

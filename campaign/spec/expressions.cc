@@ -36,7 +36,7 @@ void SpecReader::collect_identifiers() {
       add_identifier({parameter.name, own ? "" : parameter.targets.front(), type});
       if (symbols_.at(parameter.name).type == type) continue;
       problem(parameter.pointer,
-              "\"" + parameter.name + "\" is another kind of value in another group",
+              "\"" + parameter.name + "\" is a different kind of value in another group",
               "give one of the two another name");
     }
   }
@@ -85,7 +85,8 @@ bool SpecReader::check_expression_length() {
           "exclude and derived have " + std::to_string(length) +
               " characters, to be evaluated for " +
               std::to_string(static_cast<long long>(n_cases_)) + " cases",
-          "they may have 100000, and 3e8 times the number of cases; exclude by shorter conditions");
+          "they may have 100000, and 3e8 divided by the number of cases; exclude by shorter "
+          "conditions");
   return false;
 }
 
@@ -114,7 +115,7 @@ void SpecReader::read_derived() {
     }
     const Type type = expression->type();
     if (type != number_type(info->dimension)) {
-      const std::string is = type.kind == Kind::number ? describe(type.units) : "no number";
+      const std::string is = type.kind == Kind::number ? describe(type.units) : "not a number";
       problem(
           place,
           "the expression is " + is + ", but " + key + " is " + describe(units_of(info->dimension)),

@@ -66,7 +66,7 @@ void SpecReader::read_design(const std::string& pointer, const SceneNames& names
   constexpr std::size_t kMostSobolParameters = 1000;  // two dimensions each of a sequence with 3667
   if (design.kind == DesignKind::sobol && design.n_parameters > kMostSobolParameters) {
     problem(pointer + "/parameters", std::to_string(design.n_parameters) + " parameters",
-            "a sobol design has at most " + std::to_string(kMostSobolParameters));
+            "give a sobol design at most " + std::to_string(kMostSobolParameters));
   }
   group.designs.push_back(std::move(design));
   for (Parameter& one : parameters) group.parameters.push_back(std::move(one));
@@ -78,7 +78,7 @@ void SpecReader::read_sampling(const std::string& pointer, Design& design) {
   if (is_morris) design.levels = 4;
   read(pointer + "/levels", design.levels);
   if (design.levels % 2 != 0) {
-    problem(pointer + "/levels", std::to_string(design.levels) + " levels are an odd number",
+    problem(pointer + "/levels", std::to_string(design.levels) + " is an odd number of levels",
             "write an even one: parameters move by half the levels");
   }
   read(pointer + "/first", design.first);
@@ -97,7 +97,7 @@ void SpecReader::read_correlations(const std::string& pointer,
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       if (parameters[p].name != name) continue;
       if (parameters[p].range) return p;
-      problem(where, "\"" + name + "\" has values that are listed", "give it a range");
+      problem(where, "\"" + name + "\" has listed values", "give it a range");
       return std::nullopt;
     }
     if (has(pointer + "/parameters/" + faultsim::pointer_token(name))) return std::nullopt;
@@ -126,8 +126,8 @@ void SpecReader::read_correlations(const std::string& pointer,
   }
   auto copula = GaussianCopula::make(matrix);
   if (!copula) {
-    problem(list, "no numbers can have these correlations together",
-            "bring them closer to zero; pairs that are not given have 0");
+    problem(list, "these correlations contradict each other",
+            "bring them closer to zero; pairs not given have 0");
     return;
   }
   design.correlated = {places, std::move(matrix), std::move(*copula)};
@@ -140,7 +140,7 @@ void SpecReader::read_groups(const std::string& pointer, const std::string& pref
     const auto name = at(place + "/name").get<std::string>();
     const auto [other, is_new] = seen.emplace(name, place);
     if (!is_new) {
-      problem(place + "/name", "the name \"" + name + "\" is taken by " + other->second,
+      problem(place + "/name", "the name \"" + name + "\" is used by " + other->second,
               "give each group a name of its own");
     }
     json own_scene = scene;
@@ -235,7 +235,7 @@ void SpecReader::check_zip(const std::vector<Parameter>& parameters) {
     problem(other.pointer,
             "\"" + other.name + "\" has " + std::to_string(other.choices.size()) + " values, \"" +
                 first.name + "\" has " + std::to_string(first.choices.size()),
-            "a zip needs as many values of each parameter");
+            "give each parameter of a zip the same number of values");
   }
 }
 
@@ -247,7 +247,7 @@ void SpecReader::check_morris(const Design& design, const std::vector<Parameter>
     problem(one.pointer,
             "\"" + one.name + "\" has " + std::to_string(n) + (n == 1 ? " value" : " values") +
                 " on the " + std::to_string(design.levels) + " levels of morris",
-            n == 1 ? "give two values at least, or put the one into set"
+            n == 1 ? "give at least two values, or put the one into set"
                    : "give a number of values that divides the levels, or set levels to " +
                          std::to_string(n % 2 == 0 ? n : 2 * n));
   }

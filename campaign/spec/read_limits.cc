@@ -43,13 +43,13 @@ long double SpecReader::count_scan() const {
 
 void SpecReader::read_limits(const SceneNames& names, Group& group) {
   if (at("/design/kind") == "groups") {
-    problem("/limits", "limits are searched in the rows of one design, and groups are several",
+    problem("/limits", "limits are searched for in the rows of one design, and groups are several",
             "make a campaign of each group");
     return;
   }
   for (const Design& one : group.designs) {
     if (!is_of_file(one.kind)) continue;
-    problem("/limits", "limits are searched in rounds, and a file may change meanwhile",
+    problem("/limits", "limits are searched for in rounds, and a file may change between them",
             "write the configurations into the spec, as a list");
     return;
   }
@@ -80,26 +80,26 @@ void SpecReader::read_limit(const Member& one, const SceneNames& names, Group& g
   const std::string place = search.pointer + "/parameter";
   const bool is_range = at(place).contains("from") || at(place).contains("values");
   if (!is_range) {
-    problem(place, "a limit is searched along numbers", "give from, to and count, or values");
+    problem(place, "a limit is searched for among numbers", "give from, to and count, or values");
     return;
   }
   const bool is_taken = contains(group.parameters, name, &Parameter::name);
   if (is_taken) {
     problem(search.pointer, "\"" + name + "\" is a parameter of the design",
-            "search another one, or take it out of the design");
+            "search along another one, or remove it from the design");
     return;
   }
   auto parameter = read_parameter(place, name, names, DesignKind::grid);
   if (!parameter) return;
   if (parameter->is_text) {
-    problem(place, "a limit is searched along numbers, and these are words", "give numbers");
+    problem(place, "a limit is searched for among numbers, and these are words", "give numbers");
     return;
   }
   search.dimension = parameter->dimension;
   search.unit = split_quantity(parameter->choices.front().text)->unit;
   search.scan = numbers_of(*parameter, search.unit);
   if (!goes_one_way(search.scan)) {
-    problem(place, "the values of \"" + name + "\" do not go one way",
+    problem(place, "the values of \"" + name + "\" do not all go one way",
             "order them, at least two, from the safe end to the dangerous one");
     return;
   }

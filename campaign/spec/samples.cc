@@ -29,7 +29,7 @@ class Reader {
     for (; reader_.next_row(); ++file_.n_rows) {
       for (std::size_t k = 0; k < columns_.size(); ++k) read_cell(k);
     }
-    reader_.require_rows("give a line of parameters, and one of numbers for each case");
+    reader_.require_rows("write a line of parameters, then a line of numbers for each case");
     return std::move(file_);
   }
 
@@ -72,7 +72,7 @@ class Reader {
     if (name.empty()) {
       reader_.refuse("the name is empty", "give each line a name of its own");
     } else if (!names_.insert(name).second) {
-      reader_.refuse(faultsim::table_quote(name) + " was there before",
+      reader_.refuse(faultsim::table_quote(name) + " is used by an earlier line",
                      "give each line a name of its own");
     }
     file_.names.push_back(std::move(name));
@@ -110,13 +110,13 @@ const SampleFile& SpecReader::sample_file(const std::string& design) {
   };
   if (!std::ranges::all_of(names, in_word))
     problem(design + "/names", concat("\"", names, "\" is not a name"),
-            "write letters, digits and _, as conditions have it");
+            "use letters, digits and _, so that conditions can refer to it");
   const std::size_t slash = spec_.source.rfind('/');
   const bool relative = name[0] != '/' && slash != std::string::npos;
   const auto input = faultsim::read_input_file(
       relative ? spec_.source.substr(0, slash + 1) + name : name, kMostSampleBytes);
   if (!input.what.empty()) {
-    problem(place, input.what, input.cure + "; it is taken from the folder of the spec");
+    problem(place, input.what, input.cure + "; its path is relative to the folder of the spec");
     return file;
   }
   try {
@@ -168,7 +168,8 @@ std::optional<Parameter> SpecReader::given_parameter(const SampleFile::Column& c
   }
   if (one.choices.size() < 2) return std::nullopt;  // of another dimension: said
   if (!one.choices[0].si) {
-    problem(one.pointer, concat("\"", column.name, "\" takes words, and samples are numbers"),
+    problem(one.pointer,
+            concat("\"", column.name, "\" has words for values, and samples are numbers"),
             "vary it by another design, nested around this one");
     return std::nullopt;
   }
@@ -198,9 +199,9 @@ void SpecReader::read_samples(const std::string& pointer, const SceneNames& name
   }
   for (const SampleFile::Column& column : file.columns) {
     if (column.name == "weight" || column.name == "weights") {
-      problem(pointer + "/file", "samples with weights are not taken",
-              "draw from the lines in proportion to their weights, with replacement, and leave the "
-              "column out");
+      problem(
+          pointer + "/file", "samples with weights are not supported",
+          "draw lines in proportion to their weights, with replacement, and leave the column out");
       continue;
     }
     auto one = given_parameter(column, pointer + "/file", names);

@@ -172,11 +172,12 @@ CampaignSpec read_campaign(const std::string& path) {
   if (faultsim::value_at(spec.document.value, "/operators/exact_rows") != nullptr) {
     throw InputError(path,
                      {{"/operators/exact_rows", spec.document.line_of("/operators/exact_rows"),
-                       "is what `rank --certify` adds by itself", "remove it"}});
+                       "is only for `rank --certify`, which adds it itself", "remove it"}});
   }
   if (spec.document.value.contains("limits_round")) {
-    throw InputError(path, {{"/limits_round", spec.document.line_of("/limits_round"),
-                             "is what a search of limits adds by itself", "remove it"}});
+    throw InputError(path,
+                     {{"/limits_round", spec.document.line_of("/limits_round"),
+                       "is only for the search for limits, which adds it itself", "remove it"}});
   }
   return spec;
 }

@@ -98,7 +98,7 @@ CampaignSpec SpecReader::read() {
   if (is_usable("/rounds") && is_usable("/design")) read_rounds();
   if (has("/rounds") && has("/limits")) {
     problem("/limits", "a campaign has rounds or limits, not both",
-            "make a campaign of each; what both have is computed once");
+            "make a campaign of each; cases that both have are computed once");
   }
   if (is_usable("/metrics")) read_rank_by();
   if (is_usable("/keep_fields")) {
@@ -197,7 +197,7 @@ void SpecReader::read_name() {
   if (is_usable("/name")) {
     spec_.name = at("/name").get<std::string>();
     if (!is_plain_name(spec_.name)) {
-      problem("/name", "\"" + spec_.name + "\" is not a name for a campaign", kPlainNameCure);
+      problem("/name", "\"" + spec_.name + "\" is not a valid name for a campaign", kPlainNameCure);
     }
   }
   if (is_usable("/title")) read("/title", spec_.title);
@@ -243,8 +243,8 @@ std::optional<double> SpecReader::read_time_limit(const std::string& pointer) {
   } else if (parsed.value <= 0) {
     problem(pointer, "\"" + text + "\" is not above zero", "write for example \"10 min\"");
   } else if (parsed.value < kLeastTimeLimit) {
-    problem(pointer, "\"" + text + "\" is shorter than a limit can be kept",
-            "write at least \"1 s\": processes are looked at some times a second");
+    problem(pointer, "\"" + text + "\" is too short a limit to enforce",
+            "write at least \"1 s\": processes are checked a few times a second");
   }
   return parsed.value;
 }
@@ -256,7 +256,7 @@ void SpecReader::read_policy() {
     policy.on_failure = named<FailureAction>(at("/policy/on_failure").get<std::string>()).value();
   read("/policy/retries", policy.retries);
   if (has("/policy/retries") && policy.on_failure != FailureAction::retry) {
-    problem("/policy/retries", "retries without on_failure retry have no effect",
+    problem("/policy/retries", "retries have no effect without on_failure retry",
             "write \"on_failure\": \"retry\" or remove retries");
   }
   policy.time_limit = read_time_limit("/policy/time_limit");
@@ -325,7 +325,7 @@ std::optional<std::string> SpecReader::resolve(const std::map<std::string, std::
   if (problems_.size() < faultsim::kMostSuggestions) near = faultsim::near_miss(alias, known);
   // A list of every alias of the scene would bury the other problems.
   problem(spec_pointer, "there is no parameter \"" + alias + "\"",
-          near.empty() ? "faultsim parameters SCENE.json lists them; a name of your own needs "
+          near.empty() ? "`faultsim parameters SCENE.json` lists them; a name of your own needs "
                          "pointers, scale or variants"
                        : "did you mean \"" + near + "\"?");
   return std::nullopt;

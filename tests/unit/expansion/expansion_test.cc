@@ -146,7 +146,7 @@ TEST(Expansion, OneAtATimeStartsWithTheBase) {
   EXPECT_EQ(values_of(all, 2), "offset=0 m friction_angle=20 deg");
   ASSERT_EQ(all.notes.size(), 1u);
   EXPECT_EQ(all.notes[0],
-            "2 cases are the same as an earlier one and run once (the first: offset = 0 m, "
+            "2 cases are identical to an earlier one and run once (the first: offset = 0 m, "
             "friction_angle = 30 deg is the same as case 1)");
   EXPECT_EQ(all.case_of_row[0], (std::vector<int>{0, 0, 1, 2, 0}));
 }
@@ -180,7 +180,7 @@ TEST(Expansion, ExcludedCasesAreCountedWithTheReason) {
   EXPECT_EQ(all.excluded[1].n_cases, 2);
   EXPECT_EQ(all.excluded[2].n_cases, 0);
   EXPECT_EQ(all.excluded[2].reason, "reservoir_stiffness > 1 TPa");
-  EXPECT_EQ(all.notes[0], "nothing is excluded by \"reservoir_stiffness > 1 TPa\"");
+  EXPECT_EQ(all.notes[0], "\"reservoir_stiffness > 1 TPa\" excludes nothing");
 }
 
 TEST(Expansion, ExclusionsSeeFactorsVariantsAndGroups) {

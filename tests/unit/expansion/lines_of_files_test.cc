@@ -98,7 +98,7 @@ TEST_F(SamplesTest, NamesOfPlacesAreThereAndDiffer) {
   };
   EXPECT_THAT(refusal("biot\n1\n"), ::testing::HasSubstr("there is no column \"place\""));
   EXPECT_THAT(refusal("place, biot\nA, 1\nA, 0.9\n"),
-              ::testing::HasSubstr("line 3: \"A\" was there before"));
+              ::testing::HasSubstr("line 3: \"A\" is used by an earlier line"));
   EXPECT_THAT(refusal("place, biot\n, 1\n"), ::testing::HasSubstr("the name is empty"));
 }
 

@@ -106,7 +106,7 @@ TEST(OperatorChoice, SaysWhatASurfaceCannotBeOver) {
     ADD_FAILURE() << "no refusal";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("/operators/policy"));
-    EXPECT_THAT(error.what(), HasSubstr("range with ends"));
+    EXPECT_THAT(error.what(), HasSubstr("bounded range"));
   }
   EXPECT_EQ(expand_sample(5, R"("friction_angle": {"from": "15 deg", "to": "35 deg"})",
                           policy("automatic"))

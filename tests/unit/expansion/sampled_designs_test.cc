@@ -247,7 +247,7 @@ TEST(SampledDesigns, SobolLevelsOfAAndBArePairedAtRandom) {
 TEST(SampledDesigns, SobolSaysWhenSamplesAreNoPowerOfTwo) {
   const auto odd = expand_kind(R"("sobol", "samples": 12)");
   EXPECT_EQ(odd.notes, std::vector<std::string>{"12 samples of /design are not a power of two: the "
-                                                "sequence is balanced only at those"});
+                                                "sequence is balanced only at powers of two"});
   EXPECT_THAT(expand_kind(R"("sobol", "samples": 8)").notes, ElementsAre());
 }
 
@@ -381,7 +381,7 @@ TEST(SampledDesigns, ADrawnParameterOfTheOperatorIsPointedOut) {
   EXPECT_EQ(all.notes,
             std::vector<std::string>{
                 "\"offset\" of /design is drawn from a range and changes the operator: each of its "
-                "values is a family of its own; a list of a few values shares operators"});
+                "values is a family of its own; values of a short list would share operators"});
 }
 
 TEST(SampledDesigns, TheResolvedSpecSaysHowTheSampleIsMade) {
@@ -477,8 +477,9 @@ TEST(Distributions, SayWhatIsWrongWithThem) {
            {sample, normal + R"("median": 1}})", "a normal needs deviation"},
            {sample, normal + R"("median": 1}})", "a normal has no median"},
            {sample, normal + R"("deviation": 0}})", "the deviation is not above zero"},
-           {sample, normal + R"("deviation": 0.1, "from": 1, "to": 0.5}})", "no more than from"},
-           {sample, normal + R"("deviation": 0.001, "from": 0.9, "to": 1}})", "nothing of it lies"},
+           {sample, normal + R"("deviation": 0.1, "from": 1, "to": 0.5}})",
+            "a value not above from"},
+           {sample, normal + R"("deviation": 0.001, "from": 0.9, "to": 1}})", "no part of it lies"},
            {sample, normal + R"("deviation": 0.1, "count": 3}})", "a normal has no count"},
            {R"("grid")", normal + R"("deviation": 0.1}})", "nothing is drawn in a grid"},
            {R"("morris", "trajectories": 4)", normal + R"("deviation": 0.1}})", "both ends"},
@@ -496,7 +497,7 @@ TEST(Distributions, SayWhatIsWrongWithThem) {
            {sample, R"({"distribution": "normal", "mean": 0.8, "deviation": "1 m", "to": 1}})",
             "biot/deviation: \"1 m\" has a unit"},
            {sample, R"([0.5, 1]}, "correlations": [{"of": ["biot", "friction_angle"], "rank": 0}])",
-            "has values that are listed"},
+            "has listed values"},
            {sample, R"([0.5, 1]}, "correlations": [{"of": ["boit", "friction_angle"], "rank": 0}])",
             "no parameter"}}) {
     EXPECT_THAT(problem_of(kind, biot), ::testing::HasSubstr(said)) << biot;

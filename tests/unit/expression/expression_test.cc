@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(
               "unknown name \"youngs_modulus\"; did you mean salt.youngs_modulus?\n"
               "    chi_bar > 1 and youngs_modulus > 1 GPa\n                    ^"},
         Wrong{"q > 1",
-              "unknown name \"q\"; known are activated, chi_bar, friction_angle, magnitude, "
+              "unknown name \"q\"; known names: activated, chi_bar, friction_angle, magnitude, "
               "offset, rule, salt.youngs_modulus, zero\n    q > 1\n    ^"},
         Wrong{"offset > 150",
               "offset is a length, 150 is a plain number; write 150 m\n"
@@ -213,7 +213,7 @@ INSTANTIATE_TEST_SUITE_P(
               "unknown unit \"offset\"; write 3 * offset\n"
               "    offset > 3 offset\n               ^"},
         Wrong{"offset > 3 furlngs",
-              "unknown unit \"furlngs\"; known are for example m, km, m2, bar, MPa, GPa, deg, "
+              "unknown unit \"furlngs\"; some known units: m, km, m2, bar, MPa, GPa, deg, "
               "year\n    offset > 3 furlngs\n               ^"},
         Wrong{"activated && chi_bar > 1",
               "\"&&\" is unknown; write and\n    activated && chi_bar > 1\n              ^"},
@@ -226,7 +226,7 @@ INSTANTIATE_TEST_SUITE_P(
               "             ^"},
         Wrong{"", "the expression is empty; write a condition such as offset > 100 m\n    \n    ^"},
         Wrong{"chi_bar and activated",
-              "chi_bar is a plain number where a condition is wanted; compare it with something, "
+              "chi_bar is a plain number where a condition is needed; compare it with something, "
               "for example > 0\n    chi_bar and activated\n    ^"},
         Wrong{"rule > \"max\"",
               "rule is text, which has no order; compare it with = or !=\n    rule > \"max\"\n"

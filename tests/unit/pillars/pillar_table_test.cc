@@ -70,7 +70,7 @@ TEST(PillarTable, SaysAllThatIsWrongAtOnce) {
             (Lines{"1: column 1 \"x\" has no unit in brackets", "1: \"y\" has two columns"}));
   EXPECT_EQ(problems_of("y [m]\n"), (Lines{"1: there is no column \"x\""}));
   EXPECT_EQ(problems_of("x [m], y [m], thickness_foot [m]\n"),
-            (Lines{"1: the thickness is not that of both sides"}));
+            (Lines{"1: the thickness is given for one side only, or twice"}));
   EXPECT_EQ(problems_of("x [m], y [m], dip [deg], dip_from_horizontal [deg]\n"),
             (Lines{"1: there are two dips"}));
   EXPECT_EQ(problems_of("x [m], y [m]\n"), (Lines{"0: there are no values"}));
@@ -118,7 +118,7 @@ TEST(PillarTable, RefusesTheSecondOfAnIdAndADateThatIsNoneAlone) {
   EXPECT_EQ(table.heading(Role::until), "last");
   ASSERT_EQ(table.refused.size(), 2U);
   EXPECT_EQ(table.refused[0].line, 3);
-  EXPECT_EQ(table.refused[0].problems.at(0).what, "pillar \"A\" was there before");
+  EXPECT_EQ(table.refused[0].problems.at(0).what, "pillar \"A\" is on an earlier line");
   EXPECT_EQ(table.refused[0].problems.at(0).pointer, "id");
   EXPECT_EQ(table.refused[1].problems.at(0).what,
             "\"31-01-1990\" in column 4 \"last\" is not a date");
