@@ -175,7 +175,7 @@ TEST_F(Running, CancelAndRetrySayWhatTheyDidAndHowToGoOn) {
   const auto hung = faultsweep({"retry", "--case", "2"});
   EXPECT_EQ(hung.out, "1\n");
   EXPECT_THAT(hung.err, HasSubstr("1 case of sweep waits again. Next: faultsweep run sweep"));
-  EXPECT_THAT(faultsweep({"retry", "--case", "2"}).err, HasSubstr("case 2 waits already"));
+  EXPECT_THAT(faultsweep({"retry", "--case", "2"}).err, HasSubstr("case 2 is waiting already"));
   EXPECT_EQ(faultsweep({"run", "-w", "1"}).code, 1);
   EXPECT_THAT(faultsweep({"explain", "2", "--wide"}).out, HasSubstr("attempt 2 hung"));
   EXPECT_THAT(faultsweep({"retry"}).out, "1\n");
