@@ -132,7 +132,7 @@ Baseline baseline_from_json(const json& document) {
     }
     baseline.campaigns.push_back(std::move(campaign));
   }
-  if (baseline.blessings.empty()) throw StorageError("nobody has blessed it");
+  if (baseline.blessings.empty()) throw StorageError("it has never been blessed");
   return baseline;
 }
 
@@ -169,22 +169,22 @@ std::filesystem::path baseline_path(const std::filesystem::path& folder, const s
 }
 
 Baseline read_baseline(const std::filesystem::path& file) {
-  return faultsim::with_context(
-      [&] { return concat("reading the baseline ", file.string()); },
-      [&] {
-        std::ifstream stream(file, std::ios::binary);
-        if (!stream) throw StorageError("the file cannot be read");
-        try {
-          Baseline baseline = baseline_from_json(json::parse(stream));
-          if (baseline.environment.fingerprint != file.stem().string()) {
-            throw StorageError(concat("it is of the environment ", baseline.environment.fingerprint,
-                                      ", not of the one in its name"));
-          }
-          return baseline;
-        } catch (const json::exception& error) {
-          throw StorageError(error.what());
-        }
-      });
+  return faultsim::with_context([&] { return concat("reading the baseline ", file.string()); },
+                                [&] {
+                                  std::ifstream stream(file, std::ios::binary);
+                                  if (!stream) throw StorageError("the file cannot be read");
+                                  try {
+                                    Baseline baseline = baseline_from_json(json::parse(stream));
+                                    if (baseline.environment.fingerprint != file.stem().string()) {
+                                      throw StorageError(concat("it is for the environment ",
+                                                                baseline.environment.fingerprint,
+                                                                ", not of the one in its name"));
+                                    }
+                                    return baseline;
+                                  } catch (const json::exception& error) {
+                                    throw StorageError(error.what());
+                                  }
+                                });
 }
 
 std::optional<Baseline> find_baseline(const std::filesystem::path& folder, const std::string& suite,

@@ -43,7 +43,7 @@ class NightLock {
       throw StorageError(concat("cannot write ", file.string(), ": ", std::strerror(errno)));
     }
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      throw StorageError(concat("another faultsweep nightly works in ", folder.string(),
+      throw StorageError(concat("another faultsweep nightly is working in ", folder.string(),
                                 "; wait for it, or use another --store"));
     }
   }
@@ -67,9 +67,8 @@ Environment ask_environment(const std::filesystem::path& simulator) {
   try {
     return environment_from_json(json::parse(answer.out));
   } catch (const json::exception&) {
-    throw ResourceError(concat(simulator.string(), " does not say its environment (exit code ",
-                               answer.code,
-                               "); it must be a faultsim of the same version as faultsweep"));
+    throw ResourceError(concat(simulator.string(), " did not report its environment (exit code ",
+                               answer.code, "); use a faultsim of the same version as faultsweep"));
   }
 }
 
@@ -96,7 +95,7 @@ class Night {
     }
     if (suite_.campaigns.empty()) return true;
     const std::string cure =
-        concat("check --baselines, or make it: faultsweep nightly ", request_.suite,
+        concat("check --baselines, or make one: faultsweep nightly ", request_.suite,
                " --bless --reason \"why these results are right\"");
     try {
       baseline_ = find_baseline(request_.baselines, suite_.name, environment_);
@@ -164,7 +163,7 @@ class Night {
     const SubmitOutcome outcome = Store::open_writer(cold_store()).submit(submission);
     if (outcome.existed) {
       throw InputError(suite_.source, concat("the suite has ", outcome.name, " twice"),
-                       "leave one out");
+                       "remove one");
     }
     const ExitCode status = start_ranks({.store = cold_store(),
                                          .campaign = outcome.name,
@@ -229,7 +228,7 @@ class Night {
     for (const NightCaseRecord& one : record_.cases) {
       if (one.campaign == tonight.name && one.regressed) {
         in_the_way_.push_back(
-            concat(one.campaign, "/", one.position, " is not what is stored: ", one.remark));
+            concat(one.campaign, "/", one.position, " differs from what is stored: ", one.remark));
       }
     }
   }
@@ -244,8 +243,9 @@ class Night {
 
   void check_verification() const {
     if (suite_.verification.empty() || run_program(verify_command({"--list"})).code == 0) return;
-    throw InputError(suite_.source, {{"/verification", 0, "faultsim-verify does not know all names",
-                                      "faultsim-verify --list names them"}});
+    throw InputError(suite_.source,
+                     {{"/verification", 0, "faultsim-verify does not know all of these names",
+                       "use those that faultsim-verify --list shows"}});
   }
 
   /// A problem that meets its closed forms is within its tier.
@@ -320,10 +320,10 @@ class Night {
     if (baseline_->environment.numerics_version != environment_.numerics_version) {
       all.push_back(concat("THE BASELINE IS OF NUMERICS VERSION ",
                            baseline_->environment.numerics_version,
-                           ": its cases are others; look at the results, then bless"));
+                           ": its cases are different ones; look at the results, then bless"));
     }
     if (same_environment_) return all;
-    all.push_back(concat("ANOTHER ENVIRONMENT THAN THE BASELINE'S (",
+    all.push_back(concat("ENVIRONMENT DIFFERS FROM THE BASELINE'S (",
                          baseline_->environment.fingerprint,
                          "): numbers are compared within tolerances, not bit for bit"));
     for (const std::string& one : environment_differences(environment_, baseline_->environment)) {

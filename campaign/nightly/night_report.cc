@@ -134,7 +134,7 @@ std::vector<NightCaseRecord> judge_campaign(const NightCampaign* baseline,
     if (place == places.end()) {
       NightCase gone = one;
       gone.result.reset();
-      gone.trouble = "the baseline has this case, the suite has not";
+      gone.trouble = "the baseline has this case, the suite does not";
       records.push_back(record_of(tonight.name, gone));
       continue;
     }
@@ -150,7 +150,7 @@ std::vector<NightCaseRecord> judge_campaign(const NightCampaign* baseline,
   for (std::size_t k = 0; k < changed.size(); ++k) {
     NightCaseRecord& record = records[compared[k]];
     if (!changed[k]) continue;
-    record.remark += concat(record.remark.empty() ? "" : "; ", "is on the other side of case ",
+    record.remark += concat(record.remark.empty() ? "" : "; ", "is now on the other side of case ",
                             records[compared[*changed[k]]].position, " in the ranking");
     const bool is_worse = record.verdict == to_string(Verdict::activation_flipped) ||
                           record.verdict == to_string(Verdict::outcome_changed);
@@ -169,8 +169,8 @@ std::vector<std::string> night_advice(const NightRecord& tonight,
       const NightCaseRecord* before = find(*night, one);
       if (before == nullptr || before->digest.empty() || one.digest.empty()) continue;
       if (before->digest != one.digest) {
-        advice.push_back(
-            concat(name_of(one), ": other numbers than in the night of ", format_time(night->at)));
+        advice.push_back(concat(name_of(one), ": numbers differ from those of the night of ",
+                                format_time(night->at)));
       }
       break;
     }
@@ -203,7 +203,7 @@ std::string night_to_text(const NightRecord& night, const std::vector<std::strin
   for (const std::string& one : advice) text += "note: " + one + "\n";
   text += concat(night.n_compared, " compared: ", counts_text(night), "\n");
   if (night.n_compared == 0) text += "NOTHING WAS COMPARED\n";
-  if (night.n_regressed > 0) text += concat("REGRESS: ", night.n_regressed, " cases\n");
+  if (night.n_regressed > 0) text += concat("REGRESSED: ", night.n_regressed, " cases\n");
   return text;
 }
 

@@ -43,7 +43,8 @@ void check(const JsonDocument& document, const NightlySuite& suite,
     problems.push_back({pointer, document.line_of(pointer), what, cure});
   };
   if (!is_plain_name(suite.name)) {
-    problem("/name", concat("\"", suite.name, "\" is not a name for a folder"), kPlainNameCure);
+    problem("/name", concat("\"", suite.name, "\" is not a valid name for a folder"),
+            kPlainNameCure);
   }
   std::error_code ignored;  // a name that is too long is not a file either
   for (std::size_t k = 0; k < suite.campaigns.size(); ++k) {
@@ -56,7 +57,7 @@ void check(const JsonDocument& document, const NightlySuite& suite,
     if (!std::filesystem::exists(suite.samples[k].store + "/campaign.sqlite", ignored)) {
       problem(concat("/samples/", k, "/store"),
               concat("there is no store ", suite.samples[k].store),
-              "give the folder of one, relative to the suite");
+              "give the folder of a store, relative to the suite");
     }
   }
   const std::vector<std::string> known = quantities();

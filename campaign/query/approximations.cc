@@ -17,20 +17,21 @@ std::string approximation_note(const Store& store, const CampaignInfo& campaign)
   const Store::Approximations found = store.approximations(campaign.id);
   std::string text;
   if (found.n_interpolated > 0) {
-    text = concat(so_many(found.n_interpolated, found.n_results),
-                  " have an interpolated operator, off by at most ",
-                  format_number(found.error_of_stiffness, 2), " in H and ",
-                  format_number(found.error_of_slip, 2),
-                  " in slip without friction, relative, where it was measured",
-                  found.error_of_chi_bar ? concat("; χ̄ of probing cases by at most ",
-                                                  format_number(*found.error_of_chi_bar, 2))
-                                         : std::string(),
-                  found.n_interpolated < found.n_results ? "; the others have exact ones." : ".");
+    text = concat(
+        so_many(found.n_interpolated, found.n_results),
+        " have an interpolated operator, off by at most ",
+        format_number(found.error_of_stiffness, 2), " in H and ",
+        format_number(found.error_of_slip, 2),
+        " in slip without friction (relative errors, where measured)",
+        found.error_of_chi_bar
+            ? concat("; χ̄ of probing cases by at most ", format_number(*found.error_of_chi_bar, 2))
+            : std::string(),
+        found.n_interpolated < found.n_results ? "; the others have exact operators." : ".");
   }
   if (found.n_covered_in_part > 0) {
     text += concat(text.empty() ? "" : " ", so_many(found.n_covered_in_part, found.n_results),
                    " take a flow result that does not cover the compartments, ",
-                   format_number(100 * found.least_coverage, 3), " % of them at least.");
+                   format_number(100 * found.least_coverage, 3), " % of them or more.");
   }
   return text;
 }

@@ -12,7 +12,7 @@ const StoredParameter& of(const CaseParameter& value,
   const auto index = static_cast<std::size_t>(value.index);
   if (index < parameters.size()) return parameters[index];
   throw StorageError(concat("a case of the store has a parameter number ", value.index,
-                            ", which its campaign has not"));
+                            ", which its campaign does not have"));
 }
 
 /// The unit in which all rows give the parameter, "" for plain numbers; none where they differ or

@@ -29,7 +29,7 @@ std::string pressure_note(RegionPressures kind) {
              "its depth," +
              side;
     case RegionPressures::means:
-      return "mean Δp, mean p: some results are of an older version, which gave with a flow field "
+      return "mean Δp, mean p: some results are from an older version, which for a flow field gave "
              "the mean change over the compartment, not the value at the place;" +
              side;
   }

@@ -21,7 +21,7 @@ Expression parse_number(const std::string& text, const CampaignInfo& campaign,
       Expression::parse(text, result_symbols(campaign, selection), scopes_of(selection));
   if (expression.type().kind == Kind::text) {
     throw InputError("--by", concat("'", text, "' is a word, not a number"),
-                     "rank by a metric of --list-metrics");
+                     "rank by a metric from --list-metrics");
   }
   return expression;
 }

@@ -113,8 +113,8 @@ ScopedMetric metric_named(const std::string& name,
   const auto meant = nearest(name, names);
   throw InputError("--metrics", concat("there is no metric '", name, "'"),
                    meant ? concat("did you mean '", *meant, "'?")
-                         : "`faultsweep rank --list-metrics` lists them; of a fault "
-                           "or stage: F2.max_slip in gas_storage");
+                         : "`faultsweep rank --list-metrics` lists them; for a fault "
+                           "or stage write F2.max_slip in gas_storage");
 }
 
 }  // namespace
@@ -260,9 +260,9 @@ void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const st
       concat(what,
              " is per metre of strike in the plane-strain cases and a total in the others:"
              " the two cannot be compared"),
-      "choose one kind, --where plane_strain or --where \"not plane_strain\", or what is not an "
-      "area,"
-      " potency or moment, such as chi_bar or max_slip");
+      "choose one kind, --where plane_strain or --where \"not plane_strain\", or a metric other "
+      "than "
+      "an area, potency or moment, such as chi_bar or max_slip");
 }
 
 }  // namespace faultsweep

@@ -83,12 +83,12 @@ void check_whole_searches(const Expansion& expansion) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(first);
     const auto n_excluded = std::count(begin, begin + static_cast<std::ptrdiff_t>(n_values), -1);
     if (n_excluded == 0 || n_excluded == static_cast<std::ptrdiff_t>(n_values)) continue;
-    throw InputError(
-        expansion.spec.source,
-        {{"/exclude", expansion.spec.document.line_of("/exclude"),
-          concat("leaves out ", n_excluded, " of the ", n_values, " values of a search (row ",
-                 first / n_values + 1, " of the design)"),
-          "exclude whole rows of the design, and let limits end where values may not go"}});
+    throw InputError(expansion.spec.source,
+                     {{"/exclude", expansion.spec.document.line_of("/exclude"),
+                       concat("leaves out ", n_excluded, " of the ", n_values,
+                              " values of a search (row ", first / n_values + 1, " of the design)"),
+                       "exclude whole rows of the design, and end the range of a limit where "
+                       "values become invalid"}});
   }
 }
 

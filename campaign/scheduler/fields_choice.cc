@@ -9,11 +9,12 @@ namespace {
 /// Why the fields of the case are not written; "" = they are.
 std::string too_dear(const Store& store, const DecidedCase& one) {
   if (one.seconds > kMostForFields)
-    return concat("its run took ", format_duration(one.seconds), ", and would take them again");
+    return concat("its run took ", format_duration(one.seconds),
+                  ", which a second run would take again");
   const bool cached = !one.creeps && is_cached_operator(store, one.operator_fingerprint);
   if (cached || one.operator_seconds <= kMostForFields) return "";
   return concat(one.creeps ? "operators of creeping salt are not on file"
-                           : "its operator is not on file any more",
+                           : "its operator is no longer on file",
                 ", and building takes ", format_duration(one.operator_seconds));
 }
 

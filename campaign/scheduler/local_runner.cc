@@ -142,7 +142,8 @@ JobEvents LocalRunner::work(int timeout_ms) {
   } else if (const auto limit = time_limit(); limit && since_.seconds() > *limit) {
     process_->kill();
     const ProcessEnd end = process_->wait(0);
-    process_failed(RunStatus::hung, concat("over its time limit of ", *limit, " s"), end, events);
+    process_failed(RunStatus::hung, concat("exceeded its time limit of ", *limit, " s"), end,
+                   events);
   }
   return events;
 }
@@ -204,9 +205,10 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
                                    "; install both from the same source"));
       }
       if (reply.at("result_layout") != faultsim::result_layout()) {
-        throw ResourceError(concat("the simulator ", program,
-                                   " is of another build than faultsweep: its results have other",
-                                   " fields; install both from the same source"));
+        throw ResourceError(
+            concat("the simulator ", program,
+                   " is from another build than faultsweep: its results have different",
+                   " fields; install both from the same source"));
       }
       greeted_ = true;
       return;
@@ -235,7 +237,7 @@ void LocalRunner::handle(const std::string& line, JobEvents& events) {
       throw Garbled{concat("sent the unknown event '", shortened(event), "'")};
     }
   } catch (const json::exception& error) {
-    throw Garbled{concat("sent a reply that lacks something: ", error.what())};
+    throw Garbled{concat("sent an incomplete reply: ", error.what())};
   }
 }
 
@@ -244,7 +246,7 @@ void LocalRunner::handle_done(const json& reply, std::string result, JobEvents& 
   if (!result.empty()) {
     run.has_fields = !jobs_.front().fields_folder.empty();
     if (run.has_fields && !reply.contains("fields")) {
-      throw Garbled{"sent a result without the fault fields that it was asked for"};
+      throw Garbled{"sent a result without the requested fault fields"};
     }
     run.status = RunStatus::completed;
     // The first case's time has the operator in it, which is not part of what a case takes.

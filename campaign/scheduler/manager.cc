@@ -102,7 +102,7 @@ std::vector<std::int64_t> Manager::cases_shown_first() {
   try {
     return options_.shown_first(store_, campaign_);
   } catch (const InputError& error) {  // an order that these results do not have
-    display_.note(concat("no fault fields are kept, as no case is ranked first: ", error.what()));
+    display_.note(concat("no fault fields are kept, as cases cannot be ranked: ", error.what()));
     return {};
   }
 }
@@ -188,7 +188,7 @@ void Manager::interrupt() {
   plan_->stop();
   display_.note(
       concat("stopping: ", plan_->n_in_flight(),
-             " cases were handed out; the one under way of each worker may end, for at most ",
+             " cases were handed out; each worker may finish its current one, for at most ",
              options_.patience, " s"));
 }
 
@@ -265,7 +265,7 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
   const long position = positions_.contains(run.case_id) ? positions_[run.case_id] : 0;
   const std::string text =
       concat(fields_only_.count(run.case_id) > 0 ? "fields of case " : "case ", position, " ",
-             to_string(run.status), ": ", run.reason, run.final ? "" : "; it is tried again");
+             to_string(run.status), ": ", run.reason, run.final ? "" : "; it will be tried again");
   store_.record_event(campaign_.id, "case failed", text);
   display_.note(text);
   if (run.final && is_extra(run.case_id)) {
@@ -274,7 +274,8 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
     ++campaign_.n_failed;
     if (campaign_.policy.on_failure == FailureAction::abort && !aborted_) {
       aborted_ = true;
-      store_.record_event(campaign_.id, "aborted", "a case failed and the spec says abort");
+      store_.record_event(campaign_.id, "aborted",
+                          "a case failed, and the spec's on_failure is abort");
     }
   }
   add_run(std::move(run));

@@ -97,8 +97,8 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   store.record_event(
       info.id, "stopped",
       concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
-             " waiting; the manager was at work for ", hundredths(cpu_seconds() - cpu_before),
-             " of ", hundredths(since_start.seconds()), " s"));
+             " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before), " of ",
+             hundredths(since_start.seconds()), " s"));
   store.checkpoint();
   return manager.status();
 }

@@ -26,8 +26,8 @@ void require_plain(const char* option, const std::string& text) {
            std::string("-_.,:+@").find(static_cast<char>(c)) != std::string::npos;
   };
   if (std::ranges::all_of(text, is_plain)) return;
-  throw InputError(option, concat("\"", text, "\" cannot stand in a line of sbatch"),
-                   "write it as sbatch takes it: 12:00:00, 16G, batch");
+  throw InputError(option, concat("\"", text, "\" is not allowed in a line for sbatch"),
+                   "write it as for sbatch: 12:00:00, 16G, batch");
 }
 
 /// One word for the shell.
@@ -57,20 +57,20 @@ std::string head(const SlurmCampaign& campaign, const SlurmRequest& request) {
   std::string text = concat(
       "#!/bin/bash\n# Runs the campaign ", campaign.name,
       ", or what is left of it; printed by `faultsweep slurm`.\n#SBATCH --job-name=", campaign.name,
-      "\n# The manager, which mostly sleeps, and ", counted(size.n_workers, "worker", "workers"),
+      "\n# The manager, which is mostly idle, and ", counted(size.n_workers, "worker", "workers"),
       " for ", counted(n_cases, "case", "cases"), " in ",
       counted(campaign.waiting.size(), "family", "families"), ".\n#SBATCH --nodes=", request.nodes,
       "\n#SBATCH --ntasks=", size.n_workers + 1, "\n");
   if (request.time.empty()) {
     text +=
         concat("# Twice the ", std::lround(std::ceil(size.seconds / 60)),
-               " min predicted, and 10 min. What is not done by then is done by the next job.\n");
+               " min predicted, plus 10 min. What is not done by then is left to the next job.\n");
   }
   text += concat("#SBATCH --time=", request.time.empty() ? asked_time(size.seconds) : request.time,
                  "\n");
   if (request.memory_per_node.empty()) {
     text +=
-        "# Of each node: to build the largest operator (where salt creeps, for one set per "
+        "# Per node: to build the largest operator (where salt creeps, for one set per "
         "worker), and\n"
         "# 0.5 GB for each rank. Operators that do not fit at once are built one after the "
         "other.\n";
@@ -81,15 +81,15 @@ std::string head(const SlurmCampaign& campaign, const SlurmRequest& request) {
       "\n");
   if (!request.partition.empty()) text += concat("#SBATCH --partition=", request.partition, "\n");
   if (!request.account.empty()) text += concat("#SBATCH --account=", request.account, "\n");
-  text +=
-      concat("# SIGUSR1 to this shell ", kSlurmNotice,
-             " s before the time is over: cases under way are committed, exit code 75.\n"
-             "#SBATCH --signal=B:USR1@",
-             kSlurmNotice,
-             "\n# After a node failure or a preemption the job waits again and goes on where it "
-             "stopped, in\n# the same log.\n#SBATCH --requeue\n#SBATCH --open-mode=append\n"
-             "#SBATCH --output=",
-             campaign.name, "-%j.log\n");
+  text += concat(
+      "# SIGUSR1 to this shell ", kSlurmNotice,
+      " s before the time is up: cases in progress are committed, exit code 75.\n"
+      "#SBATCH --signal=B:USR1@",
+      kSlurmNotice,
+      "\n# After a node failure or a preemption the job is queued again and continues where it "
+      "stopped, in\n# the same log.\n#SBATCH --requeue\n#SBATCH --open-mode=append\n"
+      "#SBATCH --output=",
+      campaign.name, "-%j.log\n");
   return text;
 }
 
@@ -125,12 +125,12 @@ std::string slurm_script(const SlurmCampaign& campaign, const SlurmRequest& requ
   require_plain("--account", request.account);
   std::string text = head(campaign, request);
   text += concat(
-      "\n# faultsweep starts mpirun, which takes the hosts of the job; workers are its tasks less "
+      "\n# faultsweep starts mpirun, which uses the hosts of the job; workers are its tasks less "
       "one.\n",
       quoted(campaign.program.string()), " run ", campaign.name, " --store ",
       quoted(campaign.store.string()), " --simulator ", quoted(campaign.simulator.string()),
       " --progress lines &\nrun=$!\n"
-      "# Slurm signals this shell alone, which passes it on. A signal ends `wait`, but not the "
+      "# Slurm signals only this shell, which passes it on. A signal ends `wait`, but not the "
       "run.\n"
       "time_is_over=no signalled=yes\n"
       "trap 'time_is_over=yes signalled=yes; kill -USR1 $run' USR1\n"
@@ -138,7 +138,7 @@ std::string slurm_script(const SlurmCampaign& campaign, const SlurmRequest& requ
       "while [ $signalled = yes ]; do signalled=no; wait $run; status=$?; done\n");
   if (request.resubmit > 0) {
     text += concat(
-        "# 75: not all is done. Queue this job again, at most ",
+        "# 75: some cases are left. Queue this job again, at most ",
         counted(request.resubmit, "time", "times"),
         " (Slurm counts).\n"
         "if [ $status -eq 75 ] && [ $time_is_over = yes ] && [ \"${SLURM_RESTART_COUNT:-0}\" -lt ",

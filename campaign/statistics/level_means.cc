@@ -63,7 +63,7 @@ FullGrid::Made FullGrid::make(std::span<const std::vector<std::uint32_t>> levels
   FullGrid grid;
   grid.n_levels_ = levels_counted(levels);
   const std::size_t expected = combinations(grid.n_levels_, n);
-  if (expected > n) return {{}, concat("of all combinations of levels only ", n, " are there")};
+  if (expected > n) return {{}, concat("only ", n, " of all combinations of levels are present")};
   grid.place_.assign(n, 0);
   for (std::size_t f = 0; f < levels.size(); ++f) {
     const auto count = static_cast<std::uint32_t>(grid.n_levels_[f]);
@@ -73,7 +73,7 @@ FullGrid::Made FullGrid::make(std::span<const std::vector<std::uint32_t>> levels
   std::vector<char> is_taken(expected, 0);
   for (std::size_t row = 0; row < n; ++row) {
     char& taken = is_taken[grid.place_[row]];
-    if (taken != 0) return {{}, concat("row ", row + 1, " has the levels of a row before it")};
+    if (taken != 0) return {{}, concat("row ", row + 1, " repeats the levels of an earlier row")};
     taken = 1;
   }
   return {std::move(grid), ""};

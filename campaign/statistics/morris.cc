@@ -75,7 +75,7 @@ MorrisDesign::Made MorrisDesign::make(std::span<const std::vector<double>> x, do
   FAULTSIM_DEMAND(step > 0, step);
   const std::size_t d = x.size(), n = d == 0 ? 0 : x.front().size();
   if (n == 0 || n % (d + 1) != 0)
-    return {{}, concat(n, " rows are no trajectories of ", d + 1, " rows")};
+    return {{}, concat(n, " rows do not divide into trajectories of ", d + 1, " rows")};
   MorrisDesign design;
   design.n_parameters_ = d, design.step_ = step;
   std::vector<char> has_moved(d);
@@ -91,9 +91,10 @@ MorrisDesign::Made MorrisDesign::make(std::span<const std::vector<double>> x, do
       move = Move{p, after > before ? 1.0 : -1.0};
     }
     if (!move || !is_one) {
-      return {{},
-              concat("row ", row + 1, " does not differ from the one before in one parameter",
-                     " that is its trajectory's next")};
+      return {
+          {},
+          concat("row ", row + 1, " does not differ from the one before in exactly one parameter",
+                 " that its trajectory has not moved yet")};
     }
     has_moved[move->parameter] = 1;
     design.moves_.push_back(*move);

@@ -70,7 +70,7 @@ void Store::backup_to(const std::filesystem::path& target) const {
     }
     if (rows_of_tables(*copy.connection_) != rows) {
       throw StorageError(concat("the backup ", target.string(),
-                                " had other rows than the store and was removed; make it again"));
+                                " differed from the store and was removed; make it again"));
     }
   }
   std::error_code error;

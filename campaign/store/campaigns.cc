@@ -56,7 +56,8 @@ SubmitOutcome find_place(Connection& db, const Submission& submission) {
               .keep_fields = stored_word<KeepFields>(kept, "keep_fields")};
     }
   }
-  throw StorageError(concat("too many campaigns are called ", submission.name));
+  throw StorageError(
+      concat("too many campaigns are named ", submission.name, "; choose another name"));
 }
 
 std::vector<std::int64_t> add_families(Connection& db, const std::vector<FamilyRecord>& families) {
@@ -317,7 +318,7 @@ CampaignInfo Store::campaign(const std::string& name, bool with_counts) const {
   std::vector<CampaignInfo> all = campaigns();
   if (all.empty()) {
     throw StorageError(concat("the store ", folder_.string(),
-                              " has no campaign yet; `faultsweep submit SPEC.json` adds one"));
+                              " has no campaign yet; add one with `faultsweep submit SPEC.json`"));
   }
   for (CampaignInfo& info : all) {
     if (info.name == name || (name.empty() && &info == &all.back())) {

@@ -47,7 +47,7 @@ int usable_version(Connection& connection, int newest) {
   if (version > newest) {
     throw StorageError(concat("the store ", file, " has schema version ", version,
                               ", this faultsweep knows up to ", newest,
-                              "; use the newer faultsweep, nothing was changed"));
+                              "; use a newer faultsweep, nothing was changed"));
   }
   if (!is_fresh && connection.row<std::int64_t>("SELECT max(version) FROM migrations") != version) {
     throw StorageError(concat("the store ", file, " is damaged: its header and its table of ",
@@ -194,7 +194,7 @@ void check_version(Connection& connection, const std::vector<Migration>& migrati
   if (version < newest) {
     throw StorageError(concat("the store has schema version ", version, ", this faultsweep reads ",
                               newest,
-                              "; any writing command (faultsweep run, submit) migrates it"));
+                              "; migrate it by any writing command (faultsweep run, submit)"));
   }
 }
 

@@ -25,7 +25,7 @@ constexpr int kBusyTimeoutMs = 10000;  // a commit takes milliseconds; 10 s mean
       throw StoreBusy(
           concat(text, "; another process has been writing for ", kBusyTimeoutMs / 1000, " s"));
     case SQLITE_FULL:
-      throw StorageError(concat(text, "; free some space and run again, what is stored is intact"));
+      throw StorageError(concat(text, "; free some space and run again: what is stored is intact"));
     case SQLITE_READONLY:
     case SQLITE_CANTOPEN:
     case SQLITE_PERM:
@@ -36,11 +36,10 @@ constexpr int kBusyTimeoutMs = 10000;  // a commit takes milliseconds; 10 s mean
       throw StorageError(concat(text, "; the file is damaged: ", kDamageCure));
     case SQLITE_IOERR:
       throw StorageError(concat(text, ": ", std::strerror(sqlite3_system_errno(handle)),
-                                "; free space, or see to the disk, and run again, what is stored "
+                                "; free space, or check the disk, and run again: what is stored "
                                 "is intact"));
     default:
-      throw StorageError(
-          concat(text, "; `faultsweep status --verify` says whether the file is damaged"));
+      throw StorageError(concat(text, "; check the file with `faultsweep status --verify`"));
   }
 }
 

@@ -51,10 +51,10 @@ std::unique_ptr<Connection> open_for_writing(const std::filesystem::path& folder
       stored_version(*connection, store_migrations());  // before anything is changed
   if (assume_network || is_network_file_system(file_system_type(folder))) {
     connection->execute("PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL");
-    remark =
-        concat("the store ", folder.string(),
-               " is on a network file system: slower, and only safe with one host at a time; a "
-               "local disk is better");
+    remark = concat(
+        "the store ", folder.string(),
+        " is on a network file system, which is slower, and safe only with one host at a time; "
+        "prefer a local disk");
   } else {
     connection->execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
   }

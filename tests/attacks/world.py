@@ -20,7 +20,7 @@ ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 EXIT = {0: "done", 1: "done, some cases failed", 2: "input", 4: "world", 75: "interrupted"}
 CURES = ("restore a backup", "choose another", "run again", "submit again", "submit SPEC", "at least", "or more",
          "larger cells", "predicted to need", "free some space", "free space", "wait for it", "--verify",
-         "migrates it")
+         "migrate it")
 
 
 class World:

@@ -333,10 +333,10 @@ TEST_F(AnswersTest, AnswersSayHowTheirResultsCameAbout) {
   record();
   const char* interpolated =
       "50 of 200 results have an interpolated operator, off by at most 0.002 in H and 0.012 in "
-      "slip without friction, relative, where it was measured; the others have exact ones.";
+      "slip without friction (relative errors, where measured); the others have exact operators.";
   const char* covered =
-      "1 of 200 results take a flow result that does not cover the compartments, 74 % of them at "
-      "least.";
+      "1 of 200 results use a flow result that covers the compartments only in part: at least "
+      "74 % of them.";
   const Ranking ranking = make_ranking(*store_, campaign_, {.top = 0});
   for (const Answer& answer :
        {to_answer(probability({})), to_answer(analyse_sensitivity(*store_, campaign_, {})),

@@ -222,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(
               "\")\" closes nothing; remove it or add \"(\" before\n    chi_bar > 1)\n"
               "               ^"},
         Wrong{"chi_bar >",
-              "the expression ends too early; a value is missing here\n    chi_bar >\n"
+              "the expression ends too early; add the value that is missing here\n    chi_bar >\n"
               "             ^"},
         Wrong{"", "the expression is empty; write a condition such as offset > 100 m\n    \n    ^"},
         Wrong{"chi_bar and activated",

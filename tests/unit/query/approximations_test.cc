@@ -66,7 +66,7 @@ TEST_F(ApproximationNote, TellsInterpolatedOperatorsFromExactOnes) {
   EXPECT_EQ(
       note({interpolated(2e-4, 3e-3), testing::made_up_result(0.4), interpolated(5e-4, 1e-3)}),
       "2 of 3 results have an interpolated operator, off by at most 0.0005 in H and 0.003 in "
-      "slip without friction, relative, where it was measured; the others have exact ones.");
+      "slip without friction (relative errors, where measured); the others have exact operators.");
 }
 
 TEST_F(ApproximationNote, SaysHowFarTheWorstProbingCaseIsOff) {
@@ -74,20 +74,20 @@ TEST_F(ApproximationNote, SaysHowFarTheWorstProbingCaseIsOff) {
   worse.surface->chi_bar = 1.3e-3, better.surface->chi_bar = 4e-4;
   EXPECT_EQ(note({worse, better}),
             "All 2 results have an interpolated operator, off by at most 0.0005 in H and 0.003 in "
-            "slip without friction, relative, where it was measured; χ̄ of probing cases by at "
+            "slip without friction (relative errors, where measured); χ̄ of probing cases by at "
             "most 0.0013.");
 }
 
 TEST_F(ApproximationNote, SpeaksOfNoOthersWhereAllAreInterpolated) {
   EXPECT_EQ(note({interpolated(2e-4, 3e-3), interpolated(5e-4, 1e-3)}),
             "All 2 results have an interpolated operator, off by at most 0.0005 in H and 0.003 in "
-            "slip without friction, relative, where it was measured.");
+            "slip without friction (relative errors, where measured).");
 }
 
 TEST_F(ApproximationNote, SaysHowLittleAFlowResultCovers) {
   EXPECT_EQ(note({covered(0.9), covered(1), covered(0.254)}),
-            "2 of 3 results take a flow result that does not cover the compartments, 25.4 % of "
-            "them at least.");
+            "2 of 3 results use a flow result that covers the compartments only in part: at least "
+            "25.4 % of them.");
 }
 
 }  // namespace

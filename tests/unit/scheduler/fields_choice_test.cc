@@ -55,8 +55,8 @@ TEST_F(FieldsChoiceTest, LeavesOutWhatWouldTakeLongAndSaysWhy) {
   EXPECT_THAT(choice.cases, ElementsAre(ids_[0], ids_[2]));
   ASSERT_EQ(choice.left_out.size(), 2u);
   EXPECT_EQ(choice.left_out[0],
-            "the fault fields of case 2, ranked among the first, are not kept: its operator is not "
-            "on file any more, and building takes 1 min 40 s; \"keep_fields\": \"stages\" keeps "
+            "the fault fields of case 2, ranked among the first, are not kept: its operator is no "
+            "longer on file, and building takes 1 min 40 s; \"keep_fields\": \"stages\" keeps "
             "those of all cases");
   EXPECT_THAT(choice.left_out[1], HasSubstr("of creeping salt are not on file, and building"));
   build(1, 100, true);

@@ -124,7 +124,7 @@ TEST_F(LocalRunnerTest, AHangEndsAtTheTimeLimit) {
   EXPECT_LT(watch.seconds(), 60);
   ASSERT_EQ(events.failed.size(), 1u);
   EXPECT_EQ(events.failed[0].run.status, RunStatus::hung);
-  EXPECT_THAT(events.failed[0].run.reason, HasSubstr("over its time limit of"));
+  EXPECT_THAT(events.failed[0].run.reason, HasSubstr("exceeded its time limit of"));
   EXPECT_THAT(completed(events), ElementsAre(1, 3));
 }
 
@@ -136,7 +136,7 @@ TEST_F(LocalRunnerTest, AnOperatorHasATimeLimitOfItsOwn) {
   EXPECT_TRUE(events.failed[0].in_operator);
   EXPECT_EQ(events.failed[0].run.status, RunStatus::hung);
   EXPECT_THAT(events.failed[0].run.reason,
-              HasSubstr("while building the operator: over its time limit of 0.2999"));
+              HasSubstr("while building the operator: exceeded its time limit of 0.2999"));
   EXPECT_THAT(events.returned, ElementsAre(2));
   task.time_limit = 0.3;
   task.operator_time_limit = 60;
@@ -175,8 +175,7 @@ TEST_F(LocalRunnerTest, AsksForFieldsWhereTheyAreKept) {
   EXPECT_EQ(steps, "stages");
   ASSERT_EQ(events.failed.size(), 2u);
   EXPECT_EQ(events.failed[0].run.status, RunStatus::garbled);
-  EXPECT_EQ(events.failed[0].run.reason,
-            "sent a result without the fault fields that it was asked for");
+  EXPECT_EQ(events.failed[0].run.reason, "sent a result without the requested fault fields");
   EXPECT_FALSE(events.failed[0].run.has_fields);
   EXPECT_FALSE(run({"a"}).completed[0].run.has_fields) << "not asked for";
   std::filesystem::remove_all(folder);
@@ -221,7 +220,7 @@ TEST_F(LocalRunnerTest, ASimulatorOfAnotherBuildIsRefusedOnceAndNotPerCase) {
     run({"a", "b"});
     ADD_FAILURE() << "another build's results were taken";
   } catch (const faultsim::ResourceError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("is of another build than faultsweep"));
+    EXPECT_THAT(error.what(), HasSubstr("is from another build than faultsweep"));
   }
   unsetenv("FAKE_SIMULATOR_OTHER_BUILD");
 }

@@ -183,17 +183,17 @@ TEST(LevelMeans, RefuseWhatIsNoFullGrid) {
   Levels missing = whole;
   for (auto& factor : missing) factor.erase(factor.begin() + 40);
   EXPECT_FALSE(FullGrid::make(missing).grid);
-  EXPECT_EQ(FullGrid::make(missing).refusal, "of all combinations of levels only 89 are there");
+  EXPECT_EQ(FullGrid::make(missing).refusal, "only 89 of all combinations of levels are present");
   Levels doubled = whole;
   for (auto& factor : doubled) factor[41] = factor[40];
-  EXPECT_EQ(FullGrid::make(doubled).refusal, "row 42 has the levels of a row before it");
+  EXPECT_EQ(FullGrid::make(doubled).refusal, "row 42 repeats the levels of an earlier row");
   Levels longer = whole;
   for (auto& factor : longer) factor.push_back(factor[0]);
-  EXPECT_EQ(FullGrid::make(longer).refusal, "row 91 has the levels of a row before it");
+  EXPECT_EQ(FullGrid::make(longer).refusal, "row 91 repeats the levels of an earlier row");
   EXPECT_EQ(FullGrid::make({}).refusal, "there are no rows");
   EXPECT_EQ(FullGrid::make(Levels{{}}).refusal, "there are no rows");
   const Levels sparse = {{4000000000u, 0}, {4000000000u, 1}, {4000000000u, 2}};
-  EXPECT_EQ(FullGrid::make(sparse).refusal, "of all combinations of levels only 2 are there");
+  EXPECT_EQ(FullGrid::make(sparse).refusal, "only 2 of all combinations of levels are present");
 }
 
 TEST(LevelMeans, RefuseAnOutputWithoutAValue) {

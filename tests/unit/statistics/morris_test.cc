@@ -214,11 +214,13 @@ TEST(Morris, RefusesRowsThatAreNoTrajectories) {
   };
   const auto text = [](int row) {
     return "row " + std::to_string(row) +
-           " does not differ from the one before in one parameter that is its trajectory's next";
+           " does not differ from the one before in exactly one parameter that its trajectory has "
+           "not moved yet";
   };
   EXPECT_EQ(refusal({{0, 1, 1}, {0, 0, 1}}), "");
-  EXPECT_EQ(refusal({{0, 1, 1, 0}, {0, 0, 1, 1}}), "4 rows are no trajectories of 3 rows");
-  EXPECT_EQ(refusal({}), "0 rows are no trajectories of 1 rows");
+  EXPECT_EQ(refusal({{0, 1, 1, 0}, {0, 0, 1, 1}}),
+            "4 rows do not divide into trajectories of 3 rows");
+  EXPECT_EQ(refusal({}), "0 rows do not divide into trajectories of 1 rows");
   EXPECT_EQ(refusal({{0, 1, 1}, {0, 1, 0}}), text(2)) << "two moved";
   EXPECT_EQ(refusal({{0, 0, 1}, {0, 0, 1}}), text(2)) << "none moved";
   EXPECT_EQ(refusal({{0, 1, 0}, {0, 0, 0}}), text(3)) << "the same moved twice";
