@@ -138,9 +138,9 @@ std::string named_cases(const std::vector<long>& positions) {
 }
 
 const char* kind_of(int rank_class) {
-  constexpr const char* kKinds[] = {"complete histories",
-                                    "histories that depend on the mesh, which are ranked apart",
-                                    "histories that end early, which have no rank"};
+  constexpr const char* kKinds[] = {
+      "complete histories", "histories that depend on the mesh, which are ranked separately",
+      "histories that end early, which have no rank"};
   return kKinds[std::clamp(rank_class, 0, 2)];
 }
 

@@ -105,8 +105,8 @@ std::string draw_outcome_map(const Store& store, const CampaignInfo& campaign,
   const std::string places = names_parameter(store, campaign);
   std::optional x = parameter_of(parameters, "--x", request.x, {request.y, places});
   if (!x) {
-    throw InputError("--x", "the campaign has no parameter that a map could have along its side",
-                     "name what varies in the spec's design");
+    throw InputError("--x", "the campaign has no parameter for an axis of a map",
+                     "vary a parameter in the spec's design");
   }
   std::optional y = parameter_of(parameters, "--y", request.y, {x->name(), places});
   figure::OutcomeMap map;
@@ -147,7 +147,7 @@ StoredPicture::StoredPicture(const Store& store, const CampaignInfo& campaign,
     : name_(concat(campaign.name, "/", one.position)), result_(one.result) {
   if (!one.has_result) {
     throw InputError("case", concat("case ", one.position, " has no result yet"),
-                     concat("faultsweep explain ", name_, " says why"));
+                     concat("see why: faultsweep explain ", name_));
   }
   const BaseScene base = store.base_scene(one.scene);
   scene_ = faultsim::read_scene({base.source, scene_from_changes(base.document, one.changes), {}});

@@ -18,8 +18,8 @@ void add_cell_errors(const Store& store, const CampaignInfo& campaign, Answer& a
   answer.note_if(errors.measured);
   if (!errors.measured.empty()) {
     answer.note(
-        "The rms errors stand as ± in the ranking. They are those of the cases that were "
-        "measured, not bounds; a case that is nearer to a threshold than the largest of them "
+        "The rms errors appear as ± in the ranking. They are those of the cases that were "
+        "measured, not bounds; a case closer to a threshold than the largest of them "
         "counts as undecided.");
   }
   for (const std::string& sentence : errors.elsewhere) answer.note(sentence);
@@ -31,8 +31,8 @@ void add_tiers(const Store& store, const TierPair& pair, double confidence, Answ
   request.confidence = confidence;
   try {
     Answer found = to_answer(compare_tiers(store, pair.low, pair.high, request));
-    answer.note(concat("What ", pair.high.name, " says of all samples of ", pair.low.name,
-                       " (faultsweep tiers):"));
+    answer.note(concat("Answers at the tier of ", pair.high.name, " from all samples of ",
+                       pair.low.name, " (faultsweep tiers):"));
     for (const std::string& sentence : found.headline) answer.note(sentence);
     append(answer.blocks, found.blocks);
   } catch (const InputError& error) {
@@ -58,12 +58,12 @@ Answer how_sure(const Store& store, const CampaignInfo& campaign, double confide
   const std::string command = "faultsweep tradeoff " + spec_name(campaign);
   if (!trade && !tiers && store.error_bars(campaign.name).empty()) {
     answer.note(
-        concat("What these cells, the tier and the other choices of model cost in accuracy "
+        concat("What these cells, the tier and the other modelling choices cost in accuracy "
                "was not measured for this campaign: ",
-               command, " measures it and keeps it in the store."));
+               command, " measures and stores it."));
   } else if (error_bars_of(store, campaign).empty()) {
     answer.note(concat("Errors of these cases at their own mesh were not measured: ", command,
-                       " --tiers does, where it is that of a tier."));
+                       " --tiers measures them if that mesh is a tier's."));
   }
   answer.note_if(approximation_note(store, campaign));
   return answer;

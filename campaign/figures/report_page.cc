@@ -123,7 +123,7 @@ std::vector<RankedCase> add_ranking(Report& report) {
                  ? concat("; ", count_text(n), " of ", count_text(report.campaign.n_cases),
                           " cases have a result")
                  : std::string(),
-             ". A head sorts; below it go conditions such as > 50, F2 or !F1."),
+             ". Click a heading to sort; type a condition below it: > 50, F2 or !F1."),
       "faint");
   report.page.add(render_html(answer_of_page(ranking)));
   return std::move(ranking.rows);
@@ -133,12 +133,12 @@ std::vector<RankedCase> add_ranking(Report& report) {
 std::string why_no_fields(const CampaignInfo& campaign, const StoredCase& one) {
   switch (one.fields) {
     case FieldsState::none:
-      return "were not kept (keep_fields in the spec: stages keeps those of all)";
+      return "were not kept (keep_fields: stages in the spec keeps those of all cases)";
     case FieldsState::wanted:
       return concat("are not written yet: faultsweep run ", campaign.name, " writes them");
     case FieldsState::failed:
       return concat("could not be written: faultsweep show ", campaign.name, '/', one.position,
-                    " says why");
+                    " shows why");
     case FieldsState::kept:
       break;
   }
@@ -191,7 +191,7 @@ void add_answers(Report& report) {
 void add_limits(Report& report) {
   const std::string spec = report.store.spec_copies(report.campaign.id).resolved;
   if (!json::parse(spec).contains("limits")) return;
-  report.page.section("limits", "Up to where it is safe");
+  report.page.section("limits", "Safe limits");
   report.page.unless_refused([&] {
     report.page.add(render_html(to_answer(make_limit_table(report.store, report.campaign), 0)));
   });

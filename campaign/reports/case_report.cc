@@ -60,9 +60,9 @@ std::string moment_note(const CaseResult& result) {
   const double whole = result.whole.moment;
   constexpr double kSeen = 5e-4;  // of either: less is not seen in three digits
   if (std::abs(sum - whole) <= kSeen * std::max(sum, whole)) return "";
-  return concat("M0 of a stage is summed over its steps, ", format_number(sum, 3),
-                " N m of all stages, that of the whole history is by the slip at its end, ",
-                format_number(whole, 3), " N m: slip that turns back counts in the first only.");
+  return concat("M0 of a stage is summed over its steps, in all stages ", format_number(sum, 3),
+                " N m; that of the whole history is from the slip at its end, ",
+                format_number(whole, 3), " N m: slip that reverses counts only in the former.");
 }
 
 /// The last words of the simulator in runs that failed.
@@ -120,7 +120,7 @@ std::string fields_sentence(const CampaignInfo& campaign, const StoredCase& stor
       return concat("fault fields: not yet; `faultsweep run ", campaign.name, "` writes them");
     case FieldsState::failed:
       return concat("fault fields: not written, see the last attempt; `faultsweep retry ",
-                    campaign.name, " --case ", stored.position, "` lets them be tried again");
+                    campaign.name, " --case ", stored.position, "` tries again");
     case FieldsState::kept:
       break;
   }

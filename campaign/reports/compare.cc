@@ -213,7 +213,7 @@ void refuse_other_kind(const Side& a, const Side& b, const Comparison& compariso
         "--metrics",
         concat(one.metric.name, " cannot be compared: case ", a.position, " of A is ", dimension(a),
                "; case ", b.position, " of B is ", dimension(b)),
-        "name metrics without areas, potencies and moments: --metrics chi_bar,max_slip");
+        "name metrics other than areas, potencies and moments: --metrics chi_bar,max_slip");
   }
 }
 

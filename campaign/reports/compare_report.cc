@@ -22,15 +22,15 @@ std::string matched_note(const Comparison& c) {
   std::string text =
       concat("A ", c.a.name, ", ", c.a.n_cases, " cases; B ", c.b.name, ", ", c.b.n_cases,
              " cases; matched: ", c.n_by_identity, " by identity, ", c.n_by_parameters,
-             " by the parameters both have (", by.empty() ? "none" : by,
+             " by the parameters that both have (", by.empty() ? "none" : by,
              "); only in A: ", c.n_only_a, ", only in B: ", c.n_only_b);
   if (c.n_ambiguous > 0) {
     text += concat("; ", c.n_ambiguous,
-                   " are not matched because others have the same of these parameters");
+                   " are not matched, because other cases have the same values of these");
   }
   if (c.n_same_result > 0) {
     text += concat("; ", c.n_same_result,
-                   " share one result of the store: the same case, nothing to compare");
+                   " share one stored result: they are the same case, with nothing to compare");
   }
   if (c.n_without > 0) text += concat("; ", c.n_without, " have no result in A or in B yet");
   return text;
@@ -49,7 +49,7 @@ std::vector<std::string> headline_of(const Comparison& c) {
   } else {
     sentences.push_back(concat(names, " differ beyond ", tolerance, " in ", c.n_beyond(), " of ",
                                cases, " compared: ", c.count(&ComparedPair::outcome_differs),
-                               " have another outcome, ", c.count(&ComparedPair::flipped),
+                               " have different outcomes, ", c.count(&ComparedPair::flipped),
                                " slide in one only; ", c.count(&ComparedPair::identical),
                                " are identical bit for bit in outcome and all metrics."));
   }

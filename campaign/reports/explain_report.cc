@@ -29,7 +29,7 @@ std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one)
   if (one.state == "done" && one.fields == FieldsState::failed) {
     return concat("will not run: it has a result, but its fault fields could not be added: ",
                   last_fields_failure(one), "; `faultsweep retry ", campaign.name, " --case ",
-                  one.position, "` lets them be tried again");
+                  one.position, "` tries again");
   }
   if (one.state == "done" && one.fields == FieldsState::kept &&
       !fields_are_there(one.fields_folder)) {
@@ -39,13 +39,12 @@ std::string verdict_if_open(const CampaignInfo& campaign, const StoredCase& one)
   }
   if (one.state == "done") {
     return concat("will not run: it has a result (", to_string(one.result.outcome), ") from ",
-                  format_time(last->ended_at),
-                  "; the same scene gives the same numbers, so nothing would change");
+                  format_time(last->ended_at), "; the same scene gives the same numbers");
   }
   if (one.state == "failed") {
     return concat("will not run: attempt ", last->attempt, " ", last->status, ": ", last->reason,
                   "; `faultsweep retry ", campaign.name, " --case ", one.position,
-                  "` lets it run again");
+                  "` runs it again");
   }
   if (last == nullptr) {
     return "will run: no scene with this identity has been run in this store";

@@ -142,7 +142,7 @@ void check_words(const Factor& factor) {
     throw InputError("--format",
                      concat("two values of '", factor.parameter.name, "' are both '",
                             one_word(word), "' as one word"),
-                     "rename one in the spec, or export csv");
+                     "rename one in the spec, or export as csv");
   }
 }
 
@@ -222,14 +222,16 @@ std::string salib_advice(const Losses& losses, long n_holes, bool filtered, long
   };
   if (losses.n_incomplete() > 0 || any(losses.n_without_metric) || n_holes > 0) {
     text +=
-        "NaN: sobol, morris, fast, ff and dgsm cannot lose a row: run these cases again, or read\n"
-        "delta, pawn, rbd_fast or hdmr, which take any rows, from the rows of X and Y without "
+        "NaN: sobol, morris, fast, ff and dgsm need every row: run these cases again, or apply\n"
+        "delta, pawn, rbd_fast or hdmr, which accept any rows, to the rows of X and Y without "
         "NaN\n";
   }
-  if (n_holes > 0) text += "X has NaN too: not every case has every parameter\n";
-  if (filtered) text += "--where leaves rows out: no longer a design for sobol, morris, fast, ff\n";
+  if (n_holes > 0) text += "X has NaN too, as not every case has every parameter\n";
+  if (filtered)
+    text += "--where leaves out rows: this is no longer a design for sobol, morris, fast, ff\n";
   if (n_excluded > 0) {
-    text += concat(n_excluded, " rows of the designs are excluded by the spec and not here: no",
+    text += concat(n_excluded,
+                   " rows of the designs are excluded by the spec and missing here: this is no",
                    " design for sobol, morris, fast, ff\n");
   }
   return text;
@@ -279,14 +281,14 @@ std::string export_dakota(const Store& store, const CampaignInfo& campaign,
   });
   output.finish();
   return concat(n_written, " of ", losses.n_rows, " cases of ", campaign.name, "; left out, as ",
-                "Dakota reads no NaN: ", losses.text(metrics), ", ", n_without_parameter,
+                "Dakota cannot read NaN: ", losses.text(metrics), ", ", n_without_parameter,
                 " without one of the parameters (choose a group with --where)\n");
 }
 
 std::string export_salib(const Store& store, const CampaignInfo& campaign,
                          const Selection& selection, const ExportRequest& request) {
   if (request.target.empty()) {
-    throw InputError("--format", "salib is a folder of files", "name one: -o FOLDER");
+    throw InputError("--format", "salib output is a folder of files", "name one: -o FOLDER");
   }
   const StatisticsMetrics chosen = choose(store, campaign, selection, request);
   const std::vector<ScopedMetric>& metrics = chosen.metrics;
@@ -296,8 +298,8 @@ std::string export_salib(const Store& store, const CampaignInfo& campaign,
   std::erase_if(factors, [](const Factor& one) { return !one.varies(); });
   if (factors.empty()) {
     throw InputError("--format",
-                     concat("no parameter varies over the cases chosen of ", campaign.name),
-                     "choose more cases, or export csv");
+                     concat("no parameter varies over the chosen cases of ", campaign.name),
+                     "choose more cases, or export as csv");
   }
   std::vector<std::string> names = {"problem.json", "X.txt", "cases.txt"};
   for (const MetricInfo& metric : metrics) names.push_back(SalibFolder::y_name(metric));

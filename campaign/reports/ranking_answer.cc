@@ -232,21 +232,22 @@ std::vector<std::string> notes_of(const Ranking& ranking) {
   if (any([](const RankedCase& row) { return row.rank_class == 1; })) {
     notes.emplace_back(
         "+ complete, but whether a fault slides (resolved: no) or how large its slip events are "
-        "hangs on the mesh, or events are not evident: ranked apart");
+        "depends on the mesh, or an event lacks evidence: ranked separately");
   }
   if (any([](const RankedCase& row) { return row.rank_class > 1; }))
-    notes.emplace_back("* history ends early: listed apart, not ranked");
+    notes.emplace_back("* history ends early: listed separately, not ranked");
   if (any(is_unexpected)) {
     notes.emplace_back(
-        "unexpected: a fault slides after its pressure has recovered that slid before; "
-        "`faultsweep show CASE` says where");
+        "unexpected: a fault that slid before slides again after its pressure has recovered; "
+        "`faultsweep show CASE` shows where");
   }
   if (any([](const RankedCase& row) { return metrics_of(row).activated; }))
     notes.push_back(pressure_note(ranking.pressures));
   if (ranking.plane_strain_apart) {
     notes.emplace_back(
-        "plane-strain cases have no place here, their areas and moments are per metre of strike: "
-        "--where plane_strain");
+        "plane-strain cases are not ranked here, as their areas and moments are per metre of "
+        "strike: "
+        "use --where plane_strain");
   }
   if (!ranking.approximation.empty()) notes.push_back(ranking.approximation);
   for (const ErrorBar& bar : ranking.error_bars) {
@@ -301,8 +302,8 @@ std::string first_sentence(const Ranking& ranking) {
   if (metrics_of(first).activated || request.ascending) return text;
   for (const RankedCase& row : ranking.rows) {
     if (row.rank_class == 1 && metrics_of(row).activated)
-      return text +
-             concat(" Ranked apart, as the cells do not resolve it, is ", case_words(row), ".");
+      return text + concat(" Ranked separately, as the cells do not resolve it, is ",
+                           case_words(row), ".");
   }
   return text;
 }
@@ -312,7 +313,7 @@ std::string page_sentence(const Ranking& ranking) {
   const long skipped = *ranking.request.skip;
   const std::string all = counted(ranking.n_all(), "row", "rows");
   if (ranking.rows.empty())
-    return concat("The ranking has ", all, ", none behind row ", skipped, ".");
+    return concat("The ranking has ", all, ", none after row ", skipped, ".");
   return concat("Rows ", skipped + 1, " to ", skipped + static_cast<long>(ranking.rows.size()),
                 " of ", ranking.n_all(), ".");
 }
@@ -343,7 +344,7 @@ std::string sliding_sentence(const SlidingCounts& counts, const RankRequest& req
                    " of these are not resolved by the cells");
   }
   if (counts.n_perhaps > 0)
-    text += concat("; ", counts.n_perhaps, " more may slide, which the cells do not tell");
+    text += concat("; ", counts.n_perhaps, " more may slide, which the cells do not resolve");
   return text + ".";
 }
 
@@ -397,7 +398,7 @@ Answer metrics_answer() {
   }
   table.notes = {
       "per fault and stage: F2.max_slip in gas_storage; a unit per m is that of plane strain"};
-  Answer answer{{concat(metric_catalogue().size(), " metrics can be ranked by and filtered by.")}};
+  Answer answer{{concat(metric_catalogue().size(), " metrics can be used to rank and filter.")}};
   answer.add(std::move(table));
   return answer;
 }

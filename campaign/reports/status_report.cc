@@ -70,7 +70,7 @@ std::string creep_text(const std::vector<Store::FamilyProgress>& families) {
   if (n_creeping == 0) return "";
   constexpr double kGigabyte = 1e9;
   return concat("salt creeps in ", counted(n_creeping, "family", "families"),
-                ": operators are built by each worker that runs it, at most ",
+                ": each worker that runs one builds its operators, at most ",
                 format_number(memory / kGigabyte, 2), " GB each");
 }
 
@@ -109,11 +109,10 @@ std::string shown_fields_note(const CampaignInfo& c) {
   std::string text = kept_fields_text(c.keep_fields);
   if (c.n_waiting > 0) return text + " once all are decided";
   text += concat("; ", counted(c.n_fields_kept, "case has", "cases have"), " them");
-  if (c.n_fields_waiting > 0)
-    text += concat(", of ", c.n_fields_waiting, " they are not written yet");
+  if (c.n_fields_waiting > 0) text += concat(", ", c.n_fields_waiting, " still to be written");
   if (c.n_fields_failed == 0) return text;
-  return concat(text, ", of ", c.n_fields_failed, " they could not be written: `faultsweep retry ",
-                c.name, "` lets them be tried again");
+  return concat(text, ", ", c.n_fields_failed, " could not be written: `faultsweep retry ", c.name,
+                "` tries again");
 }
 
 std::string fields_note(const CampaignInfo& c) {

@@ -95,7 +95,8 @@ Answer quantiles(const Store& store, const Asked& asked) {
   QuantileRequest request;
   request.metrics = asked.text("metrics");
   if (request.metrics.empty())
-    throw HttpError(400, "metrics", "it says of what", "write metrics=chi_bar; GET /api/metrics");
+    throw HttpError(400, "metrics", "it is missing",
+                    "write metrics=chi_bar; GET /api/metrics lists them");
   request.where = asked.text("where");
   request.confidence = asked.confidence();
   return to_answer(find_quantiles(store, asked.campaign(store), request));
@@ -105,7 +106,7 @@ Answer posterior(const Store& store, const Asked& asked) {
   PosteriorRequest request{asked.texts("seen"), asked.texts("of"), asked.text("where"),
                            asked.confidence()};
   if (request.seen.empty())
-    throw HttpError(400, "seen", "nothing was seen", "write seen=F2 did not slide before 8 yr");
+    throw HttpError(400, "seen", "it is missing", "write seen=F2 did not slide before 8 yr");
   return to_answer(find_posterior(store, asked.campaign(store), request));
 }
 
@@ -127,7 +128,7 @@ std::vector<Route> with_rendering(std::vector<Route> routes) {
   return routes;
 }
 
-const Parameter kWhere = {"where", "only cases where this holds, as of `rank --where`"};
+const Parameter kWhere = {"where", "only cases where this holds, as for `rank --where`"};
 const Parameter kBy = {"by", "metric or expression; default: the spec's, or the riskiest first"};
 const Parameter kOrder = {"order", "descending (default) or ascending"};
 const Parameter kStage = {"stage", "default: the whole history"};
@@ -139,16 +140,16 @@ const Parameter kConfidence = {"confidence", "of the intervals: 0.5 to 0.9999, d
 const std::vector<Route>& answer_routes() {
   static const std::vector<Route> routes = with_rendering(
       {{"/api/campaigns",
-        "the campaigns of the store, as of `status --all`",
+        "the campaigns of the store, as in `status --all`",
         {},
         rendered<campaigns>},
        {"/api/metrics",
-        "what can be ranked and filtered by, as of `rank --list-metrics`",
+        "what can be ranked and filtered by, as in `rank --list-metrics`",
         {},
         rendered<metrics>},
-       {"/api/campaigns/{campaign}", "how it stands, as of `status`", {}, rendered<status>},
+       {"/api/campaigns/{campaign}", "its state, as in `status`", {}, rendered<status>},
        {"/api/campaigns/{campaign}/ranking",
-        "as of `rank --skip N --top N`",
+        "as in `rank --skip N --top N`",
         {kBy,
          kWhere,
          kOrder,
@@ -158,19 +159,19 @@ const std::vector<Route>& answer_routes() {
          kFault},
         rendered<ranking>},
        {"/api/campaigns/{campaign}/cases/{case}",
-        "as of `show`",
+        "as in `show`",
         {kStage, kFault},
         rendered<one_case>},
        {"/api/campaigns/{campaign}/cases/{case}/why",
-        "why it stands where it does, as of `rank --why`",
+        "why it ranks where it does, as in `rank --why`",
         {kBy, kWhere, kOrder, kStage, kFault},
         rendered<why_ranked>},
        {"/api/campaigns/{campaign}/cases/{case}/explanation",
-        "whether it will run, as of `explain`",
+        "whether it will run, as in `explain`",
         {},
         rendered<explained>},
        {"/api/campaigns/{campaign}/probability",
-        "as of `probability`",
+        "as in `probability`",
         {{"of", "condition; default: that each fault slides, in each stage"},
          {"by", "a parameter: for each of its values, or ten parts of its range"},
          {"width", "wanted distance of the bounds, as a share"},
@@ -178,30 +179,30 @@ const std::vector<Route>& answer_routes() {
          kConfidence},
         rendered<probability>},
        {"/api/campaigns/{campaign}/curves",
-        "as of `probability --against`",
+        "as in `probability --against`",
         {{"against", "step (default), time or pressure"}, kWhere, kStage, kConfidence},
         rendered<curves>},
        {"/api/campaigns/{campaign}/quantiles",
-        "as of `probability --quantiles`",
-        {{"metrics", "names with commas"}, kWhere, kConfidence},
+        "as in `probability --quantiles`",
+        {{"metrics", "comma-separated names"}, kWhere, kConfidence},
         rendered<quantiles>},
        {"/api/campaigns/{campaign}/posterior",
-        "as of `posterior`",
-        {{"seen", "a statement; may be given again", true},
-         {"of", "condition; may be given again", true},
+        "as in `posterior`",
+        {{"seen", "a statement; may be repeated", true},
+         {"of", "condition; may be repeated", true},
          kWhere,
          kConfidence},
         rendered<posterior>},
        {"/api/campaigns/{campaign}/sensitivity",
-        "as of `sensitivity`",
-        {{"metrics", "names with commas; default: chi_bar, slip and sliding by fault"},
+        "as in `sensitivity`",
+        {{"metrics", "comma-separated names; default: chi_bar, slip and sliding by fault"},
          {"by_step", "yes: at the end of each load step"},
          kWhere,
          kStage,
          kFault,
          kConfidence},
         rendered<sensitivity>},
-       {"/api/campaigns/{campaign}/limits", "as of `limits`", {}, rendered<limits>}});
+       {"/api/campaigns/{campaign}/limits", "as in `limits`", {}, rendered<limits>}});
   return routes;
 }
 

@@ -41,7 +41,7 @@ Asked::Asked(const Route& route, const HttpRequest& request) : route_(route), re
         route.parameters, [&](const Parameter& parameter) { return parameter.name == name; });
     if (known == route.parameters.end()) {
       const std::vector names = mapped(route.parameters, &Parameter::name);
-      throw HttpError(400, "parameters", concat(route.path, " takes no \"", name, "\""),
+      throw HttpError(400, "parameters", concat(route.path, " has no parameter \"", name, "\""),
                       names.empty() ? "leave it out"
                                     : faultsim::suggest(name, std::vector<std::string>(
                                                                   names.begin(), names.end())));
@@ -92,7 +92,7 @@ std::size_t Asked::word(const char* name, const std::vector<std::string>& words)
   if (!given_word) return 0;
   const auto found = std::ranges::find(words, *given_word);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  throw HttpError(400, name, concat("\"", *given_word, "\" is not one of its words"),
+  throw HttpError(400, name, concat("\"", *given_word, "\" is not one of its values"),
                   "write one of " + joined(words, ", "));
 }
 

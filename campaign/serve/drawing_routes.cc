@@ -20,7 +20,7 @@ HttpResponse sensitivity_chart(const Store& store, const Asked& asked) {
   request.by_step = asked.flag("by_step");
   std::string drawing = first_chart(what_matters(store, asked.campaign(store), request));
   if (drawing.empty())
-    throw HttpError(400, "metrics", "nothing of this varies", "ask for other metrics");
+    throw HttpError(400, "metrics", "none of these metrics varies", "ask for other metrics");
   return svg(std::move(drawing));
 }
 
@@ -49,7 +49,7 @@ Route case_route(const char* path, const char* meaning) {
               meaning,
               {{"fault", "default: the one with the largest χ̄"},
                {"step", "load step; default: that of its largest χ̄"},
-               {"cursor", "yes: histories have a line at the step"}},
+               {"cursor", "yes: mark the step in histories by a line"}},
               case_chart<chart>,
               "image/svg+xml"};
   if (chart == faultsim::CaseChart::fault_map)
@@ -63,18 +63,18 @@ const std::vector<Route>& drawing_routes() {
   using faultsim::CaseChart;
   static const std::vector<Route> routes = {
       {"/api/campaigns/{campaign}/map.svg",
-       "what became of the cases, against two parameters",
+       "outcomes of the cases, against two parameters",
        {{"x", "along the bottom; default: the first"}, {"y", "along the side; default: the next"}},
        outcome_map,
        "image/svg+xml"},
       {"/api/campaigns/{campaign}/sensitivity.svg",
        "which parameters matter",
-       {{"metrics", "names with commas"}, {"by_step", "yes: against time"}},
+       {{"metrics", "comma-separated names"}, {"by_step", "yes: against time"}},
        sensitivity_chart,
        "image/svg+xml"},
       {"/api/campaigns/{campaign}/probability.svg",
        "how likely something is",
-       {{"of", "condition"}, {"where", "of which cases"}, {"by", "a parameter"}},
+       {{"of", "condition"}, {"where", "only these cases"}, {"by", "a parameter"}},
        probability_chart,
        "image/svg+xml"},
       case_route<CaseChart::history>("/api/campaigns/{campaign}/cases/{case}/history.svg",
@@ -91,7 +91,7 @@ const std::vector<Route>& drawing_routes() {
                                        "χ, slip, state or pressure on a fault; needs fields"),
       case_route<CaseChart::stress_path>(
           "/api/campaigns/{campaign}/cases/{case}/stress-path.svg",
-          "traction of a fault's most critical point; needs fields")};
+          "traction at a fault's most critical point; needs fields")};
   return routes;
 }
 

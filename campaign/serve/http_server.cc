@@ -57,8 +57,8 @@ class RateLimit {
 };
 
 constexpr int kTooLarge = 413;
-const HttpProblem kHasBody = {kTooLarge, "body", "requests have none here",
-                              "put it behind ?, as NAME=TEXT"};
+const HttpProblem kHasBody = {kTooLarge, "body", "requests have no body here",
+                              "put parameters after ?, as NAME=TEXT"};
 
 /// What a client sent that is not HTTP, or more of it than may be; none = it went away.
 std::optional<HttpProblem> problem_of(const error_code& error) {
@@ -70,14 +70,14 @@ std::optional<HttpProblem> problem_of(const error_code& error) {
   }
   if (is(http::error::bad_version)) {
     constexpr int kVersion = 505;
-    return HttpProblem{kVersion, "request line", "it is another version of HTTP",
-                       "ask in HTTP/1.1"};
+    return HttpProblem{kVersion, "request line", "this version of HTTP is not supported",
+                       "use HTTP/1.1"};
   }
   if (is(http::error::body_limit)) return kHasBody;
   const bool is_ours = error.category() == make_error_code(http::error::bad_method).category();
   if (!is_ours || is(http::error::end_of_stream)) return std::nullopt;
   return HttpProblem{400, "request", concat("it is not HTTP: ", error.message()),
-                     "ask in HTTP/1.1 with lines that end in CR LF"};
+                     "use HTTP/1.1 with lines that end in CR LF"};
 }
 
 using Head = http::request<http::empty_body>;
@@ -97,10 +97,10 @@ std::optional<HttpProblem> problem_of(const Head& head, bool has_body, const Ser
   if (head.target().size() > limits.target_bytes) {
     return HttpProblem{kTooLong, "path",
                        concat("it is longer than ", limits.target_bytes, " bytes"),
-                       "ask in fewer words"};
+                       "shorten the request"};
   }
   if (head.method() != http::verb::get && head.method() != http::verb::head) {
-    return HttpProblem{kNoSuchMethod, "method", "this server is for reading: GET and HEAD",
+    return HttpProblem{kNoSuchMethod, "method", "this server is read-only: GET and HEAD",
                        "use faultsweep on the command line to change something"};
   }
   if (has_body) return kHasBody;
@@ -240,11 +240,11 @@ void Session::ask(HttpRequest request) {
   constexpr int kTooMany = 429, kBusy = 503;
   if (server_.unanswered >= limits_.unanswered) {
     return send(error_response(
-        {kBusy, "server", "too many requests wait for their answers", "ask again in a second"}));
+        {kBusy, "server", "too many requests are waiting for answers", "ask again in a second"}));
   }
   if (!server_.rate.takes_one()) {
     return send(error_response(
-        {kTooMany, "server", "too many requests a second", "ask again in a second"}));
+        {kTooMany, "server", "too many requests per second", "ask again in a second"}));
   }
   ++server_.unanswered;
   is_being_answered_ = true;
@@ -313,7 +313,7 @@ void Listener::listen() {
   if (error) {
     throw InputError("--port",
                      concat("cannot listen on port ", settings.port, ": ", error.message()),
-                     "choose another port, or 0 for any that is free");
+                     "choose another port, or 0 for any free one");
   }
   port = acceptor.local_endpoint().port();
 }

@@ -21,7 +21,7 @@ function response_to(address, signal) {
     const request = new XMLHttpRequest();
     request.open("GET", address);
     request.onload = () => take(request);
-    request.onerror = () => fail(new Refused("The server does not answer any more. Start faultsweep serve again and load this page anew."));
+    request.onerror = () => fail(new Refused("The server no longer answers. Start faultsweep serve again and reload this page."));
     request.onabort = () => fail(new DOMException("", "AbortError"));
     if (signal) signal.addEventListener("abort", () => request.abort());
     request.send();
@@ -194,7 +194,7 @@ function add_map(api) {
 }
 /** An answer that is asked for when it is looked at. Returns what shows it anew, if it is. */
 function add_answer(title, path, parameters) {
-  const details = made("details", {}, made("summary", {}, title)), body = made("div", {}, made("p", {class: "faint"}, "being counted"));
+  const details = made("details", {}, made("summary", {}, title)), body = made("div", {}, made("p", {class: "faint"}, "being computed"));
   details.append(body);
   view.append(details);
   const place = new Place(body), show = () => { if (details.open) place.show(path, {...parameters, as: "html"}); };
@@ -226,11 +226,11 @@ function follow(place, api, news) {
 async function show_campaign(campaign) {
   const api = "/api/campaigns/" + encodeURIComponent(campaign);
   begin(campaign, link("all campaigns"));
-  const standing = section("How it stands"), parts = [add_map(api), add_ranking(api, campaign)];
+  const standing = section("Status"), parts = [add_map(api), add_ranking(api, campaign)];
   view.append(made("h2", {}, "More"));
   parts.push(add_answer("How often each fault slides", api + "/probability", {}),
     add_answer("How soon each fault begins to slide", api + "/curves", {against: "time"}),
-    add_answer("What matters", api + "/sensitivity", {}), add_answer("Up to where it is safe", api + "/limits", {}),
+    add_answer("What matters", api + "/sensitivity", {}), add_answer("Safe limits", api + "/limits", {}),
     add_answer("Workers, failures and families", api, {}));
   await follow(standing, api, () => parts.forEach((show) => show()));
 }
@@ -250,9 +250,9 @@ function add_steps(element, api, moved) {
   });
 }
 const why_no_fields = {
-  none: "No fields of this case were kept (keep_fields in its spec: stages keeps those of all). ",
+  none: "No fields of this case were kept (\"keep_fields\": \"stages\" in the spec keeps those of all cases). ",
   wanted: "The fields of this case are not written yet: faultsweep run writes them. ",
-  failed: "The fields of this case could not be written: its last attempt, below, says why. ",
+  failed: "The fields of this case could not be written: see its last attempt, below. ",
   gone: "The files with the fields of this case are gone. ",
 };
 const map_shows = ["chi", "slip", "state", "pressure"];
@@ -435,10 +435,10 @@ class WhatIf {
     this.part = made("div", {}, this.section, this.history);
     const needs_build = this.controls.some((one) => !one.of.keeps_operator);
     const sliders = made("div", {class: "controls"}, made("h2", {}, "Varied in the campaign"), ...own.map((one) => one.element),
-      made("p", {class: "faint"}, needs_build ? "\u2020 takes an operator of its own, which is built first" : ""),
-      made("details", {}, made("summary", {}, "Others that keep the operator"), ...others.map((one) => one.element)),
+      made("p", {class: "faint"}, needs_build ? "\u2020 needs an operator of its own, which is built first" : ""),
+      made("details", {}, made("summary", {}, "Others that use the same operator"), ...others.map((one) => one.element)),
       button("as it was", () => { this.controls.forEach((one) => one.reset()); this.ask(); }));
-    const copied = made("details", {}, made("summary", {}, "Take it along"), ...["scene", "scene as it was", "run line", "campaign"].map((what) =>
+    const copied = made("details", {}, made("summary", {}, "Export"), ...["scene", "scene as it was", "run line", "campaign"].map((what) =>
       button(what, () => { this.text.textContent = this.as(what); })), this.text);
     const shown = made("div", {}, this.said, this.words, made("div", {class: "slider"}, made("label", {}, "load step", this.slider), this.step_words),
       this.part, made("p", {class: "choices"}, fault, kind, map_of), this.more, copied);
@@ -465,9 +465,9 @@ class WhatIf {
     const name = this.name();
     switch (reply.state) {
       case "done": this.said.textContent = name + ": " + reply.outcome + ", " + Math.round(milliseconds) + " ms"; return this.show(reply, question);
-      case "building": this.said.textContent = name + ": its operator is built: " + (reply.says || ""); break;
+      case "building": this.said.textContent = name + ": building its operator: " + (reply.says || ""); break;
       case "running": this.said.textContent = name + ": running" + (reply.says ? ", " + reply.says : ""); break;
-      case "refused": this.said.textContent = name + " cannot be: " + reply.problems.map((one) => one.cause + (one.cure ? "; " + one.cure : "")).join(". "); break;
+      case "refused": this.said.textContent = name + " is not possible: " + reply.problems.map((one) => one.cause + (one.cure ? "; " + one.cure : "")).join(". "); break;
       case "failed": this.said.textContent = name + ": " + reply.says; break;
       case "superseded": if (reply.says) this.said.textContent = reply.says; break;
     }
@@ -515,7 +515,7 @@ class WhatIf {
     this.slider.setAttribute("aria-valuetext", this.step_words.textContent);
   }
   as(what) {
-    if (!this.reply) return "Nothing is there yet.";
+    if (!this.reply) return "There is nothing yet.";
     const changes = this.changes(), file = "case-" + this.number + ".json";
     const quoted = (text) => "'" + String(text).replace(/'/g, "'\\''") + "'";
     switch (what) {

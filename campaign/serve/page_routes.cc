@@ -33,12 +33,12 @@ HttpResponse what_may_change(const Store& store, const Asked& asked) {
 const std::vector<Route>& page_routes() {
   static const std::vector<Route> routes = {
       {"/api/campaigns/{campaign}/cases/{case}/steps",
-       "section and history with a slider over the load steps, a part of a page",
+       "section and history with a slider over the load steps, as part of a page",
        {},
        steps_of_case,
        "text/html; charset=utf-8"},
       {"/api/campaigns/{campaign}/cases/{case}/parameters",
-       "what of it what-if may change, and from where to where",
+       "what what-if may change of it, and in which ranges",
        {},
        what_may_change}};
   return routes;
@@ -47,17 +47,17 @@ const std::vector<Route>& page_routes() {
 const Route& what_if_route() {
   static const Route route = {
       "/api/campaigns/{campaign}/cases/{case}/what-if",
-      "the case with changes, run by a simulator that this server keeps: state building, running, "
-      "done, refused, failed or superseded, with what schemas/what_if_protocol.md says of it",
+      "the case with changes, run by a simulator of this server: state building, running, "
+      "done, refused, failed or superseded, as described in schemas/what_if_protocol.md",
       {{"changes", "a JSON object: value by JSON Pointer, of those that .../parameters lists"},
-       {"chart", "as of `faultsim plot`; may be given again", true},
-       {"fault", "that charts are of; default: the one with the largest χ̄"},
-       {"step", "load step that charts are of"},
+       {"chart", "as for `faultsim plot`; may be repeated", true},
+       {"fault", "shown in charts; default: the one with the largest χ̄"},
+       {"step", "load step shown in charts"},
        {"show", "of a fault map: chi (default), slip, state or pressure"},
        {"cursor", "yes: histories have a line at the step"},
-       {"page", "a word of the one who asks; the newest question of anybody wins"},
-       {"ask", "number of the question, larger than those before; the same again waits on"},
-       {"wait", "ms, 0 to 2000, default 1000: for the answer, else how far it is"}},
+       {"page", "a word that identifies the asking page; the newest question of any page wins"},
+       {"ask", "number of the question, larger than those before; the same number keeps waiting"},
+       {"wait", "ms to wait for the answer before reporting progress, 0 to 2000, default 1000"}},
       nullptr};
   return route;
 }

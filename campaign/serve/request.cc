@@ -56,7 +56,7 @@ std::string decoded(std::string_view text, const char* place, bool plus_is_blank
       const int high = i + 2 < text.size() ? digit_of(text[i + 1]) : -1;
       const int low = high < 0 ? -1 : digit_of(text[i + 2]);
       if (low < 0) {
-        throw HttpError(400, place, "a % has no two hexadecimal digits behind it",
+        throw HttpError(400, place, "a % is not followed by two hexadecimal digits",
                         "write %25 for a percent sign");
       }
       out += static_cast<char>(high * 16 + low);
@@ -64,7 +64,7 @@ std::string decoded(std::string_view text, const char* place, bool plus_is_blank
     }
   }
   if (!is_text(out)) {
-    throw HttpError(400, place, "it is not UTF-8 or has control characters in it",
+    throw HttpError(400, place, "it is not UTF-8, or contains control characters",
                     "write texts as UTF-8, each byte beyond ASCII as %XX");
   }
   return out;
@@ -86,7 +86,8 @@ std::vector<std::string> parse_path(std::string_view path) {
     parts.push_back(decoded(part, "path", false));
     const std::string& name = parts.back();
     if (name == "." || name == ".." || name.find_first_of("/\\") != std::string::npos)
-      throw HttpError(400, "path", "it goes through folders", "GET /api lists what there is");
+      throw HttpError(400, "path", "a part of it is . or .., or contains a slash",
+                      "GET /api lists what there is");
   }
   if (parts.back().empty()) parts.pop_back();  // "/api/" is "/api"
   return parts;
@@ -107,7 +108,7 @@ HttpRequest parse_target(std::string_view target) {
     if (part.empty()) continue;
     if (request.query.size() == kMostParameters) {
       throw HttpError(400, "parameters", concat("there are more than ", kMostParameters),
-                      "GET /api lists those that each path takes");
+                      "GET /api lists those of each path");
     }
     const std::size_t equals = part.find('=');
     const bool has_value = equals != std::string_view::npos;
@@ -147,14 +148,15 @@ std::optional<HttpProblem> refusal(const ClientHeaders& headers, int port) {
   };
   constexpr int kForbidden = 403;
   if (!headers.origin.empty() && !is_one_of(headers.origin, is_our_origin)) {
-    return HttpProblem{kForbidden, "header Origin", "a page of another origin asks",
+    return HttpProblem{kForbidden, "header Origin", "the request is from a page of another origin",
                        "open the server's own address"};
   }
   const auto is_own = [](const std::string& site) {
     return site == "same-origin" || site == "none";
   };
   if (!headers.fetch_site.empty() && !is_one_of(headers.fetch_site, is_own)) {
-    return HttpProblem{kForbidden, "header Sec-Fetch-Site", "a page of another site asks",
+    return HttpProblem{kForbidden, "header Sec-Fetch-Site",
+                       "the request is from a page of another site",
                        "open the server's own address"};
   }
   return std::nullopt;

@@ -64,7 +64,7 @@ constexpr int kUnavailable = 503, kBug = 500;
 /// What cannot be read now is told on the terminal, where paths may stand.
 HttpResponse unavailable(const char* cause, const std::string& remark) {
   HttpResponse response =
-      error_response({kUnavailable, "store", cause, "the terminal of faultsweep serve says more"});
+      error_response({kUnavailable, "store", cause, "see the terminal of faultsweep serve"});
   response.remark = remark;
   return response;
 }
@@ -132,13 +132,13 @@ HttpResponse StoreApi::answer_with_paths(const HttpRequest& request) {
   } catch (const InputError& error) {
     return error_response(problem_of(error));
   } catch (const faultsim::Error& error) {
-    return unavailable("the store cannot be read now", error.what());
+    return unavailable("the store cannot be read at present", error.what());
   } catch (const std::bad_alloc&) {
     return unavailable("there is not enough memory for the answer", "not enough memory");
   } catch (const std::exception& error) {
     HttpResponse response = error_response(
-        {kBug, "server", "a mistake of this program, or a damaged store",
-         "`faultsweep status --verify` says whether the store is sound; else report it"});
+        {kBug, "server", "a bug of this program, or a damaged store",
+         "check the store with `faultsweep status --verify`; if it is sound, report the bug"});
     response.remark = error.what();
     return response;
   }
@@ -154,7 +154,7 @@ HttpResponse StoreApi::answer_or_throw(const HttpRequest& request) {
       std::ranges::find_if(routes, [&](const Route* route) { return leads(*route, path); });
   constexpr int kNotFound = 404;
   if (found == routes.end())
-    throw HttpError(kNotFound, "path", "there is nothing under this path",
+    throw HttpError(kNotFound, "path", "there is nothing at this path",
                     "GET /api lists what there is");
   const Asked asked(**found, request);
   const serve::OpenStores::Lease store = stores_.take();

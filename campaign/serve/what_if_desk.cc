@@ -77,7 +77,7 @@ std::string WhatIfDesk::ask(const WhatIfQuestion& question, milliseconds longest
 std::string WhatIfDesk::told(const WhatIfQuestion& question) const {
   if (is_at(question)) return reply_;
   const bool is_ours = question.page == page_;
-  return state_text("superseded", is_ours ? "" : "another page of this server has asked since");
+  return state_text("superseded", is_ours ? "" : "another page has asked this server since");
 }
 
 /// Answers questions until the end; the simulator lives in between, for a while.

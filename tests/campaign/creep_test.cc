@@ -52,7 +52,9 @@ class Creep : public testing::CampaignTest {
     write("spec.json", spec);
     const auto end = faultsweep({"submit", (folder_ / "spec.json").string()});
     ASSERT_EQ(end.code, 0) << end.err;
-    EXPECT_THAT(end.out, HasSubstr("salt creeps in 1 family: operators are built by each worker"));
+    EXPECT_THAT(
+        end.out,
+        HasSubstr("salt creeps in 1 family: each worker that runs one builds its operators"));
   }
   double predicted_memory() {
     const auto status = faultsweep({"status", "--json"});

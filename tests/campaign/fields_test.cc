@@ -209,8 +209,8 @@ TEST_F(Fields, OfTheThreeCasesRankedFirstAreKeptByDefault) {
   }
   ASSERT_EQ(faultsweep({"report", "bare", "-o", page.string()}).code, 0);
   EXPECT_THAT(bytes_of(page),
-              HasSubstr("which were not kept (keep_fields in the spec: stages keeps "
-                        "those of all)"));
+              HasSubstr("which were not kept (keep_fields: stages in the spec keeps "
+                        "those of all cases)"));
 }
 
 /// An extra that fails leaves all as it was, is said, and can be tried again.
@@ -226,9 +226,8 @@ TEST_F(Fields, OfCasesRankedFirstThatCannotBeWrittenFailNothing) {
   EXPECT_EQ(refused["fields"]["state"], "failed");
   const std::string status = faultsweep({"status", "blocked", "--wide"}).out;
   EXPECT_THAT(status, HasSubstr("2 done (2 converged), 0 failed, 0 waiting"));
-  EXPECT_THAT(status,
-              HasSubstr("; 0 cases have them, of 2 they could not be written: `faultsweep retry "
-                        "blocked` lets them be tried again"));
+  EXPECT_THAT(status, HasSubstr("; 0 cases have them, 2 could not be written: `faultsweep retry "
+                                "blocked` tries again"));
   EXPECT_THAT(status, HasSubstr("fields: cannot create the folder"));
   std::filesystem::remove(store_ / "fields" / "blocked");
   EXPECT_EQ(faultsweep({"retry", "blocked"}).out, "2\n");

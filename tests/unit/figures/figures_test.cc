@@ -384,7 +384,7 @@ TEST_F(FiguresTest, APageSaysWhyACaseHasNoFields) {
   const auto page = [&] {
     return report_page(*store_, campaign_, {.program = "faultsweep test", .top = 4});
   };
-  EXPECT_THAT(page(), HasSubstr("which were not kept (keep_fields in the spec: "));
+  EXPECT_THAT(page(), HasSubstr("which were not kept (keep_fields: stages in the spec "));
   store_->want_fields(campaign_.id, {1, 2, 3});
   RunRecord gone;
   gone.case_id = 1;

@@ -84,7 +84,7 @@ class HowSureTest : public ::testing::Test {
 };
 
 constexpr const char* kNotMeasured =
-    "What these cells, the tier and the other choices of model cost in accuracy was not measured "
+    "What these cells, the tier and the other modelling choices cost in accuracy was not measured "
     "for this campaign: faultsweep tradeoff sweep.json measures it";
 
 TEST_F(HowSureTest, SaysWhereNothingWasMeasuredAndWhichCommandMeasuresIt) {
@@ -112,7 +112,7 @@ TEST_F(HowSureTest, StatesErrorsWithTheirTierQuantityAndUnit) {
                               "off by 2.1 mm rms, 4 mm at most (32 cases).\n"));
   EXPECT_THAT(text, HasSubstr("Measured at tier demonstration on cases of this campaign, against "
                               "tier standard: χ̄ off by 0.03 rms, 0.06 at most (32 cases).\n"));
-  EXPECT_THAT(text, HasSubstr("The rms errors stand as ± in the ranking."));
+  EXPECT_THAT(text, HasSubstr("The rms errors appear as ± in the ranking."));
   EXPECT_THAT(text, Not(HasSubstr(kNotMeasured)));
   EXPECT_THAT(text, Not(HasSubstr("their own mesh were not measured")));
   EXPECT_THAT(page(sweep), HasSubstr("largest slip off by 2.1 mm rms, 4 mm at most (32 cases)."));
@@ -145,8 +145,12 @@ TEST_F(HowSureTest, SaysWhatADearerTierSaysOfTheSameSample) {
                      high = run("sweep-standard", "standard", 50, 0.01);
   const std::string expected =
       render_text(to_answer(compare_tiers(*store_, low, high, {.confidence = 0.95})), 1000);
-  EXPECT_THAT(said(low), HasSubstr("What sweep-standard says of all samples of sweep-screening"));
-  EXPECT_THAT(said(high), HasSubstr("What sweep-standard says of all samples of sweep-screening"));
+  EXPECT_THAT(
+      said(low),
+      HasSubstr("Answers at the tier of sweep-standard from all samples of sweep-screening"));
+  EXPECT_THAT(
+      said(high),
+      HasSubstr("Answers at the tier of sweep-standard from all samples of sweep-screening"));
   const std::string first = expected.substr(0, expected.find('\n'));
   EXPECT_THAT(said(low), HasSubstr(first));
   EXPECT_THAT(said(low), Not(HasSubstr(kNotMeasured)));

@@ -179,7 +179,7 @@ TEST_F(CompareTest, CountsFlipsOutcomesAndWhatIsMissing) {
   EXPECT_FALSE(compare(c.a, 1, c.b, 1e9).agrees()) << "an outcome is beyond every tolerance";
   EXPECT_EQ(compare(c.a, 1, c.b, 1e9).n_beyond(), 2) << "a flip is, too";
   const std::string text = render_text(to_answer(c), 1000);
-  EXPECT_THAT(text, HasSubstr("1 have another outcome, 1 slide in one only"));
+  EXPECT_THAT(text, HasSubstr("1 have different outcomes, 1 slide in one only"));
   testing::expect_the_same_numbers(to_answer(c));
   testing::expect_to_fit(to_answer(c));
   EXPECT_THAT(text, HasSubstr("only in B: 1"));

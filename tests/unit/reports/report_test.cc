@@ -82,7 +82,7 @@ TEST_F(ReportTest, TheTableShowsFlagsAndListsEarlyEndsApart) {
   EXPECT_THAT(text, ::testing::ContainsRegex("\n1 +2 +10  min +yes +yes"));
   EXPECT_THAT(text, ::testing::ContainsRegex("\n[*] +5 +40  mean +yes +no .*unstable, mesh too "
                                              "coarse for its weakening"));
-  EXPECT_THAT(text, HasSubstr("* history ends early: listed apart, not ranked"));
+  EXPECT_THAT(text, HasSubstr("* history ends early: listed separately, not ranked"));
   const auto none = render_json(to_answer(make_ranking(*store_, campaign_,
                                                        request("",
                                                                "chi_bar > "
@@ -146,7 +146,7 @@ TEST(SlidingCounts, TellWhatTheCellsDoNotResolve) {
   for (int k = 0; k < 5; ++k) counts.add(k < 3, k != 0 && k != 4);
   EXPECT_EQ(sliding_sentence(counts, {}),
             "3 of 5 cases slide; 1 of these are not resolved by the cells; 1 more may slide, which "
-            "the cells do not tell.");
+            "the cells do not resolve.");
   EXPECT_EQ(sliding_sentence({7, 0, 0, 0}, {.stage = "storage"}),
             "None of 7 cases slides in storage.");
   EXPECT_EQ(sliding_sentence({2, 2, 2, 0}, {.fault = "F2"}),
@@ -213,9 +213,10 @@ TEST_F(ReportTest, ShowSaysHowAResultCameAboutAndWhyFiguresDiffer) {
   one.stored.result.stages[2].moment = 4.59e14;
   one.stored.result.whole.moment = 4.52e14;
   for (const std::size_t k : {0u, 1u}) one.stored.result.stages[k].moment = 0;
-  EXPECT_THAT(text(), HasSubstr("M0 of a stage is summed over its steps, 4.59e+14 N m of all "
-                                "stages, that of the whole history is by the slip at its end, "
-                                "4.52e+14 N m"));
+  EXPECT_THAT(text(),
+              HasSubstr("M0 of a stage is summed over its steps, in all stages 4.59e+14 N m; "
+                        "that of the whole history is from the slip at its end, "
+                        "4.52e+14 N m"));
   one.stored.result.surface = faultsim::CaseSurface{75, 73, 12, 0.01, 2e-3, 3e-3, 4e-3, 5e-3};
   const std::string sentence = faultsim::approximation_sentence(one.stored.result);
   EXPECT_THAT(sentence, HasSubstr("interpolated on 75 exact ones"));
@@ -231,7 +232,7 @@ TEST_F(ReportTest, ExplainSaysWhy) {
   EXPECT_THAT(explained(campaign_, "1"), HasSubstr("will not run: it has a result (converged)"));
   EXPECT_THAT(explained(campaign_, "6"),
               HasSubstr("Case 6 of sweep will not run: attempt 1 crashed: killed by SIGSEGV (11); "
-                        "`faultsweep retry sweep --case 6` lets it run again"));
+                        "`faultsweep retry sweep --case 6` runs it again"));
   store_->retry(campaign_.id, false, 6);
   EXPECT_THAT(explained(campaign_, "6"), HasSubstr("will run: it waits for another attempt"));
   const auto json =
@@ -278,7 +279,7 @@ TEST_F(ReportTest, SaysWhereTheFieldsAre) {
               HasSubstr("fault fields: gone from " + (folder_ / "fields/fields/2").string() +
                         "; `faultsweep run fields` writes them again"));
   EXPECT_THAT(explain("2"), HasSubstr("will run, for its fault fields only: their files are gone"));
-  EXPECT_THAT(show("3"), HasSubstr("`faultsweep retry fields --case 3` lets them be tried again"));
+  EXPECT_THAT(show("3"), HasSubstr("`faultsweep retry fields --case 3` tries again"));
   EXPECT_THAT(explain("3"), HasSubstr("could not be added: world, cannot write faults.h5: No space "
                                       "left on device; `faultsweep retry fields --case 3`"));
   EXPECT_THAT(show("4"), HasSubstr("not yet; `faultsweep run fields` writes them"));
@@ -322,7 +323,7 @@ TEST_F(ReportTest, SaysWhoseFieldsAreKept) {
   run.result = testing::made_up_result(0.2);
   store_->record_runs(id, {run});
   store_->want_fields(id, {1, 2, 3});
-  EXPECT_THAT(status(), HasSubstr("; 0 cases have them, of 3 they are not written yet\n"));
+  EXPECT_THAT(status(), HasSubstr("; 0 cases have them, 3 still to be written\n"));
   run.case_id = 1;
   run.fields_only = run.has_fields = true;
   RunRecord failed;
@@ -332,8 +333,8 @@ TEST_F(ReportTest, SaysWhoseFieldsAreKept) {
   store_->record_runs(id, {run, failed});
   const std::string said = status();
   EXPECT_THAT(said, HasSubstr("4 done (4 converged), 0 failed, 0 waiting"));
-  EXPECT_THAT(said, HasSubstr("; 1 case has them, of 1 they are not written yet, of 1 they could "
-                              "not be written: `faultsweep retry shown` lets them be tried again"));
+  EXPECT_THAT(said, HasSubstr("; 1 case has them, 1 still to be written, 1 could not be written: "
+                              "`faultsweep retry shown` tries again"));
   EXPECT_THAT(said, HasSubstr("without a full result or its fields:"));
   EXPECT_THAT(said, HasSubstr("fields: disk full"));
   const CampaignInfo info = store_->campaign("shown");
@@ -358,7 +359,7 @@ TEST_F(ReportTest, SaysWhereOperatorsAreNotShared) {
   EXPECT_TRUE(store_->waiting_families(id).at(1).predicted.creeps());
   const StatusReport status = make_status(*store_, "salt");
   EXPECT_THAT(render_text(to_answer(status), 200),
-              HasSubstr("salt creeps in 1 family: operators are built by each worker that runs it, "
+              HasSubstr("salt creeps in 1 family: each worker that runs one builds its operators, "
                         "at most 20 GB each"));
   const auto family = render_json(to_answer(status))["families"].at(1);
   EXPECT_EQ(family["creeps"], true);

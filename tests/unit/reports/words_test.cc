@@ -326,7 +326,7 @@ TEST_F(MixedTest, NumbersPerMetreAndTotalsAreNotRankedTogether) {
   EXPECT_THAT(order({}), ElementsAre(2));
   EXPECT_THAT(order({.where = "max_slip > 1 m or plane_strain"}), ElementsAre(1));
   EXPECT_THAT(render_text(to_answer(ranking({}))),
-              HasSubstr("plane-strain cases have no place here"));
+              HasSubstr("plane-strain cases are not ranked here"));
   const auto is_apart = [&](const RankRequest& request) {
     return render_json(to_answer(ranking(request))).at("plane_strain_apart");
   };

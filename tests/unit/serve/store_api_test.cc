@@ -269,7 +269,7 @@ TEST_F(StoreApiTest, PagesOfARankingMakeTheWholeRanking) {
     EXPECT_EQ(pages, whole) << order;
     const json behind = json_at("/api/campaigns/sweep/ranking?rows=7&page=9" + order);
     EXPECT_EQ(behind.at("cases").size(), 0);
-    EXPECT_THAT(behind.at("headline").at(0).get<std::string>(), HasSubstr("none behind row 56"));
+    EXPECT_THAT(behind.at("headline").at(0).get<std::string>(), HasSubstr("none after row 56"));
   }
 }
 
