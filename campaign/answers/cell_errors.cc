@@ -20,8 +20,8 @@ std::string mesh_sentence(const std::string& tier_name, const faultsim::Scene& b
   return tier != nullptr
              ? concat("Mesh: tier ", tier->name, " (", cells,
                       "), whose cells were measured in plane strain: ", tier->errors, ".")
-             : concat("Mesh: of the base scene ", cells,
-                      "; no tier names an error of it, faultsweep tradeoff measures one.");
+             : concat("Mesh: base scene, ", cells,
+                      "; no tier states its error, faultsweep tradeoff measures it.");
 }
 
 /// "" for nothing. @param bars  of one tier and one reference.

@@ -171,11 +171,11 @@ StageRows read_stage(const Store& store, const CampaignInfo& campaign,
 std::vector<StepResult> reference_steps(const Store& store, const CampaignInfo& campaign,
                                         const StageRows& rows) {
   if (rows.n == 0)
-    throw InputError("probability", "no case was selected", "ask for others with --where");
+    throw InputError("probability", "no case was selected", "select others with --where");
   const auto found =
       std::ranges::find_if(rows.cases, [](const CaseOnsets& one) { return one.complete(); });
   if (found == rows.cases.end())
-    refuse_unrun("probability", "no case has a history to its end", campaign);
+    refuse_unrun("probability", "no case has a full history", campaign);
   return store.stored_case(campaign.id, std::to_string(found->position)).result.steps;
 }
 
@@ -287,7 +287,7 @@ std::string last_point(const Curves& curves) {
                                                 most->points.back().counts.estimate();
     if (is_more) most = &one;
   }
-  if (most == nullptr) return "No load step was asked about.";
+  if (most == nullptr) return "No load step was selected.";
   return concat(
       "Most often ", most->fault, most->stage.empty() ? "" : " in " + most->stage, ": ",
       share_sentence(most->points.back().counts, curves.sampling, curves.request.confidence),
@@ -333,7 +333,7 @@ std::optional<faultsim::figure::HistoryChart> chart_of(const Curves& curves) {
   chart.remark =
       concat("thin lines: ", curves.sampling.is_random
                                  ? concat("bounds of ", confidence_text(curves.request.confidence))
-                                 : std::string("what is undecided counted as no and as yes"));
+                                 : std::string("undecided cases counted as no and as yes"));
   chart.time_label = curves.request.axis == CurveAxis::time ? "time, years" : "load step";
   for (const CurvePoint& point : curves.curves.front().points)
     chart.time.push_back(point.at / axis.unit.size);
@@ -374,12 +374,12 @@ Answer to_answer(const Curves& curves) {
       curves.sampling.is_random ? "Probability" : "Share of the cases",
       " that a fault has begun to slide by then",
       curves.request.axis == CurveAxis::pressure
-          ? ", or by the time that the stage's pressure has come so far"
+          ? ", or by the time that the stage's pressure has changed this far"
           : "",
       ", of ", grouped(curves.n_rows),
-      " cases. A fault that slides at the end of a load step began "
-      "somewhere within it: from and to count it by the end of its step and from its beginning on",
-      curves.sampling.is_random ? concat(", and hold each point with a confidence of ",
+      " cases. A fault that slides at the end of a load step began to "
+      "slide somewhere within it: from counts it at the step's end, to at its beginning",
+      curves.sampling.is_random ? concat(", and they contain each point with a confidence of ",
                                          confidence_text(curves.request.confidence))
                                 : "",
       "; what the cells leave undecided, and a history that ends early, may be either."));

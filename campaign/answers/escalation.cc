@@ -29,7 +29,7 @@ void check_levels(const faultsim::JsonDocument& document, const EscalationTable&
     if (k > 0 && level.condition.empty()) {
       problems.push_back({at, document.line_of(at),
                           concat("level \"", level.name, "\" has no condition"),
-                          "give it one; only the first, the least severe, may go without"});
+                          "give it one; only the first, least severe level may have none"});
     }
     if (!names.insert(level.name).second) {
       problems.push_back({at + "/name", document.line_of(at + "/name"),

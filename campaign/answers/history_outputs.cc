@@ -18,13 +18,13 @@ std::vector<std::int64_t> faults_of(const std::vector<ScopedMetric>& metrics,
     faults.push_back(own ? *own : selection.fault ? selection.fault->id : -1);
     if (!contains(kept, one.metric)) {
       problems.push_back({"", 0, concat(one.name, " is not kept load step by load step"),
-                          concat("choose of ", joined(kept, ", "))});
+                          concat("choose from ", joined(kept, ", "))});
     } else if (one.scope && one.scope->stage) {
-      problems.push_back({"", 0, concat(one.name, " is of a stage, a load step of none"),
-                          "leave out `in ...`; --stage takes the steps of a stage"});
+      problems.push_back({"", 0, concat(one.name, " belongs to a stage, a load step does not"),
+                          "leave out `in ...`; select the steps of a stage by --stage"});
     } else if (faults.back() < 0) {
       problems.push_back(
-          {"", 0, concat(one.name, " at a load step is of a fault"),
+          {"", 0, concat(one.name, " at a load step belongs to a fault"),
            concat("name the fault: ", selection.faults.front().name, ".", one.name)});
     }
   }
@@ -42,7 +42,7 @@ void require_shared(const std::vector<Store::LoadStep>& steps) {
   throw InputError(
       "--by-step",
       concat("load step ", other->step, " is one of ", other->stage, " in ", other->n_cases, " of ",
-             n_cases, " cases only: their stages are divided differently"),
+             n_cases, " cases only: their stages have different steps"),
       "select cases with the same steps by --where, or one --stage");
 }
 

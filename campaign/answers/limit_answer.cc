@@ -80,15 +80,13 @@ Answer to_answer(const LimitTable& table, long top) {
   for (const LimitSearch& limit : table.limits) answer.note(question_text(limit));
   answer.note(concat(counted(table.rows.size(), "row", "rows"),
                      ", narrowest band first. [safe, unsafe]: the last value that is safe and the "
-                     "first that is not, both computed, as the cases given (faultsweep show); "
-                     "between values tried that are alike nothing was."));
+                     "first that is not, both computed, in the cases given (faultsweep show); "
+                     "nothing was computed between tried values with the same answer."));
   if (!all_resolved(table)) {
     answer.note(
-        "The cells do not resolve everywhere whether it happens: [safe, unsafe] is what came out "
-        "on "
-        "these cells; `surely` are the surely safe and the surely unsafe value, and what lies "
-        "between them is undecided. They stand at values that were tried; smaller cells bring them "
-        "together.");
+        "The cells do not resolve everywhere whether it happens: [safe, unsafe] is the result on "
+        "these cells; `surely` gives the surely safe and the surely unsafe value, between which it "
+        "is undecided. Both are values that were tried; smaller cells bring them closer together.");
   }
   return answer;
 }

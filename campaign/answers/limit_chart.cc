@@ -70,7 +70,7 @@ std::optional<figure::RangeBars> limit_chart(const LimitTable& table, std::size_
   const auto [low, high] = std::minmax(limit.scan.front(), limit.scan.back());
   constexpr int kTicks = 6;
   if (high > low) chart.axis = figure::axis_between(chart.label, low, high, kTicks);
-  chart.key = {"safe", "turns unsafe within", concat("unsafe: ", limit.unsafe), "",
+  chart.key = {"safe", "becomes unsafe within", concat("unsafe: ", limit.unsafe), "",
                "not known, or not resolved by the cells"};
   return chart;
 }

@@ -79,9 +79,9 @@ std::string sentence_of(const LimitTable& table, std::size_t l) {
   const LimitCell& cell = *lowest->cells[l];
   const Crossing& crossing = *cell.finding.limit();
   const std::string settings = settings_text(table, *lowest);
-  text += concat(" The first limit from ", value_text(limit.scan.front(), limit), " on is that of ",
-                 lowest->fault, settings.empty() ? "" : concat(" at ", settings), ": safe at ",
-                 value_text(crossing.before.value, limit), ", unsafe at ",
+  text += concat(" The first limit, starting from ", value_text(limit.scan.front(), limit),
+                 ", is that of ", lowest->fault, settings.empty() ? "" : concat(" at ", settings),
+                 ": safe at ", value_text(crossing.before.value, limit), ", unsafe at ",
                  value_text(crossing.after.value, limit));
   return text + (is_resolved(cell) ? "." : concat("; ", sure_sentence(cell, limit), "."));
 }

@@ -41,7 +41,7 @@ LimitMaps maps_of(const LimitTable& table, const std::vector<const LimitRow*>& r
       const std::pair at(row->settings[down], row->settings[across]);
       if (!maps[{l, row->fault}].emplace(at, short_text(*row->cells[l])).second) {
         throw InputError("--map", "the design varies more than these two parameters",
-                         "use --csv, or a design with two");
+                         "use --csv, or a design of two");
       }
     }
   }
@@ -77,7 +77,7 @@ Answer map_answer(const LimitTable& table, const std::string& across, const std:
     shown.notes.push_back(concat("all safe: safe in the whole range tried (", range_text(limit),
                                  "); all unsafe: unsafe already at ",
                                  value_text(limit.scan.front(), limit),
-                                 "; *: safe again behind the limit; ?: the cells do not resolve it "
+                                 "; *: safe again beyond the limit; ?: the cells do not resolve it "
                                  "there."));
     shown.in_files = false;
     answer.add(std::move(shown));

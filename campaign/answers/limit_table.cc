@@ -120,7 +120,7 @@ class LimitRows {
 LimitTable make_limit_table(const Store& store, const CampaignInfo& campaign) {
   const std::optional<StoredRounds> stored = stored_rounds(store, campaign);
   if (!stored || !stored->spec.contains("limits")) {
-    throw InputError("limits", campaign.name + " searches no limits",
+    throw InputError("limits", campaign.name + " does not search for limits",
                      "give its spec a section \"limits\"");
   }
   const LimitSearcher searcher = make_limit_searcher(parse_spec(*stored));

@@ -210,12 +210,12 @@ LocalPlane local_plane(const ParameterSpace& space, const std::vector<double>& y
   const std::vector<double> distances = comparable_distances(space, y, here);
   const std::vector<std::size_t> cases = nearest(distances, here, wanted);
   if (cases.size() < wanted) {
-    return refuse(concat("slopes of ", plane.slopes.size(), " parameters take ", wanted,
-                         " cases with the same words, there are ", cases.size()));
+    return refuse(concat("slopes of ", plane.slopes.size(), " parameters need ", wanted,
+                         " cases with the same words, and there are ", cases.size()));
   }
   const Rows rows = rows_of(space, y, here, cases, distances, plane.slopes);
   const auto inverted = inverse(moments(rows, 1), kCollinear);
-  if (!inverted) return refuse("its nearest cases do not vary the parameters apart");
+  if (!inverted) return refuse("its nearest cases do not vary the parameters independently");
   plane.n_cases = cases.size();
   plane.radius = distances[cases.back()];
   fit(rows, *inverted, plane);

@@ -152,13 +152,13 @@ std::string name_of(const OneAtATime& found, const Tornado& tornado, std::size_t
   return concat(found.outputs[m].name, tornado.group.empty() ? "" : ", ", tornado.group);
 }
 
-/// "F1.chi_bar is 0.71 in the base case and moves most with offset: 0.52 (0 m) to 0.93 (120 m)."
+/// "F1.chi_bar is 0.71 in the base case and changes most with offset: 0.52 (0 m) to 0.93 (120 m)."
 std::string sentence_of(const OneAtATime& found, const Tornado& tornado, std::size_t m) {
   const ShownUnit unit = unit_of(found.outputs[m], found.plane_strain);
   const auto number = [&](double value) { return in_unit(value, unit, kSwingDigits); };
   const Swing most = swings_of(found, tornado, m).front();
   return concat(name_of(found, tornado, m), tornado.group.empty() ? " is " : ": ",
-                number(tornado.base.metrics[m]), " in the base case; it moves most with ",
+                number(tornado.base.metrics[m]), " in the base case; it changes most with ",
                 found.parameters[most.parameter], ": ", number(most.low), " (",
                 place_of(most.at_low), ") to ", number(most.high), " (", place_of(most.at_high),
                 ").");
@@ -235,9 +235,8 @@ std::string rows_text(const Tornado& tornado) {
   const auto n_unresolved =
       std::ranges::count_if(tornado.moves, [](const Move& one) { return one.is_unresolved; });
   std::string rows = concat(tornado.group, tornado.group.empty() ? "" : ": ", tornado.moves.size(),
-                            " cases beside the base case, case ", tornado.base.position);
-  if (tornado.n_without > 0)
-    rows += concat("; ", tornado.n_without, " without a history to its end");
+                            " cases besides the base case, case ", tornado.base.position);
+  if (tornado.n_without > 0) rows += concat("; ", tornado.n_without, " without a full history");
   if (n_unresolved > 0) {
     rows += concat("; ", n_unresolved,
                    " with an activation or event that the cells do not resolve, which count as "
@@ -245,7 +244,7 @@ std::string rows_text(const Tornado& tornado) {
   }
   if (tornado.n_unplaced > 0) {
     rows += concat("; ", tornado.n_unplaced,
-                   " left out, as they are cases of another group and differ in more than one "
+                   " left out, as they belong to another group and differ in more than one "
                    "parameter");
   }
   if (tornado.base.is_unresolved) rows += "; that of the base case is not resolved";
@@ -255,13 +254,12 @@ std::string rows_text(const Tornado& tornado) {
 void add_notes(const OneAtATime& found, Answer& answer) {
   answer.note(
       "One parameter at a time from one base case: the changes are exact for the values given. "
-      "What several parameters do together, and what they would do from another base case, was not "
-      "run.");
+      "What several parameters do together, or from another base case, was not computed.");
   for (const Tornado& tornado : found.tornados) answer.note(rows_text(tornado));
   for (const std::string& group : found.without_base)
-    answer.note(concat(group, ": its base case has no history to its end."));
+    answer.note(concat(group, ": its base case has no full history."));
   if (found.n_other_groups > 0)
-    answer.note(concat("Groups of another design, not looked at: ", found.n_other_groups, "."));
+    answer.note(concat("Groups of another design, not considered: ", found.n_other_groups, "."));
 }
 
 }  // namespace
@@ -272,7 +270,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
   const auto is_one_at_a_time = [](const auto& one) { return one.at("kind") == "one-at-a-time"; };
   if (std::ranges::none_of(groups, is_one_at_a_time)) return std::nullopt;
   if (!request.cases.where.empty())
-    throw InputError("sensitivity", "changes are counted from the base case", "leave out --where");
+    throw InputError("sensitivity", "changes are measured from the base case", "leave out --where");
   const Selection selection =
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
   OneAtATime found{campaign, request, {}, {}, {}, {}};
@@ -299,8 +297,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
   }
   if (found.tornados.empty())
     refuse_unrun("sensitivity",
-                 "the base case, from which changes are counted, has no history to its end",
-                 campaign);
+                 "the base case, from which changes are measured, has no full history", campaign);
   return found;
 }
 
@@ -326,11 +323,11 @@ Answer to_answer(const OneAtATime& found) {
   for (figure::IntervalChart& chart : charts)
     answer.blocks.emplace_back(AnswerChart(std::move(chart)));
   if (answer.headline.empty())
-    answer.headline.emplace_back("No parameter alone moves any of this.");
+    answer.headline.emplace_back("No parameter alone changes any of these metrics.");
   answer.facts = {{"campaign", found.campaign.name}, {"kind", "one-at-a-time"}, {"cases", n_cases}};
   if (!constant.empty()) {
     answer.note(concat(
-        "Moved by no parameter alone, or without a value in the base case: ", constant, "."));
+        "Changed by no parameter alone, or without a value in the base case: ", constant, "."));
   }
   add_notes(found, answer);
   return answer;

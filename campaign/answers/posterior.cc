@@ -55,7 +55,7 @@ std::map<long, CaseHistory> read_histories(const Store& store, const CampaignInf
   });
   if (!has_magnitudes) {
     throw InputError("--seen", "events of cases in plane strain have no magnitude",
-                     "state a metric of theirs, such as event_stress_drop, or run the "
+                     "state a metric that they have, such as event_stress_drop, or run the "
                      "cases in three dimensions");
   }
   return histories;
@@ -177,9 +177,9 @@ class PosteriorReader {
 void refuse_few(const Posterior& p) {
   if (p.effective_size >= kFewestEffective) return;
   const std::string what = concat(
-      "what was seen leaves an effective sample of ", format_number(p.effective_size, 3), " of ",
-      p.n_rows, " cases: below ", format_number(kFewestEffective), " a few would speak for all");
-  std::string cure = "draw cases nearer to what was seen, or state the errors that it really has";
+      "the observations leave an effective sample of ", format_number(p.effective_size, 3), " of ",
+      p.n_rows, " cases: below ", format_number(kFewestEffective), ", a few would stand for all");
+  std::string cure = "draw cases closer to the observations, or state their true errors";
   if (p.effective_size >= 1) {
     const double needed = 1.2 * kFewestEffective / p.effective_size * static_cast<double>(p.n_rows);
     cure = concat("run about ", format_number(needed, 2), " cases; or ", cure);
@@ -325,7 +325,7 @@ AnswerTable parameter_table(const std::vector<ParameterUpdate>& parameters) {
 
 std::string headline_of(const Posterior& p) {
   const std::string sample =
-      concat("What was seen leaves an effective sample of ", format_number(p.effective_size, 4),
+      concat("The observations leave an effective sample of ", format_number(p.effective_size, 4),
              " of ", grouped(p.n_rows), " cases");
   if (p.probabilities.empty()) return sample + ".";
   const Update& most = *std::ranges::max_element(
@@ -375,24 +375,24 @@ Answer to_answer(const Posterior& p) {
   answer.add(update_table("probabilities", "condition", p.probabilities));
   if (p.effective_size < kFewestEffectiveMembers) {
     answer.note(
-        concat("Bounds of what a twentieth of all cases has hold 93 to 97 times in 100 from an "
-               "effective sample of ",
-               kFewestEffectiveMembers, " on; of smaller ones less."));
+        concat("Bounds of a share of one twentieth hold 93 to 97 times in 100 for an "
+               "effective sample of at least ",
+               kFewestEffectiveMembers, "; less often for smaller ones."));
   }
   if (p.n_unknown > 0) {
-    answer.note(concat(
-        "Of ", grouped(p.n_unknown), " without a history to ", p.n_unknown == 1 ? "its" : "their",
-        " end it is not known: estimates are of the others, bounds allow for any outcome."));
+    answer.note(
+        concat(grouped(p.n_unknown), p.n_unknown == 1 ? " case has" : " cases have",
+               " no full history: estimates are from the others, bounds allow for any outcome."));
   }
   if (p.n_undecided > 0) {
-    answer.note(concat("Of ", grouped(p.n_undecided),
-                       " cases the cells leave open what was seen or is asked, or when in a load "
+    answer.note(concat("In ", grouped(p.n_undecided),
+                       " cases the cells leave open what was observed or asked, or when in a load "
                        "step a fault began to slide: estimates take them as computed, bounds allow "
                        "for either."));
   }
-  answer.note(concat("Bounds hold what is after with a confidence of ",
+  answer.note(concat("Bounds contain the values after the observations with a confidence of ",
                      confidence_text(p.request.confidence),
-                     "; what was seen is taken to have independent errors."));
+                     "; errors of the observations are taken as independent."));
   answer.note_if(p.sampling.remark);
   answer.note_if(p.sampling.approximation);
   return answer;

@@ -161,11 +161,10 @@ std::string meaning_of_bounds(const Probability& p) {
   const std::string open =
       "what the cells leave undecided and what has no full history may be either";
   if (!p.sampling.is_random)
-    return any_undecided ? concat("From and to: ", open, "; they are no bounds of a probability.")
-                         : "";
-  return concat("From and to hold the probability with a confidence of ",
+    return any_undecided ? concat("From and to: ", open, "; they do not bound a probability.") : "";
+  return concat("From and to contain the probability with a confidence of ",
                 confidence_text(p.request.confidence), any_undecided ? concat(": ", open) : "",
-                "; ± is by the number of cases alone.");
+                "; ± is due to the number of cases alone.");
 }
 
 const Share& most_often(const Probability& p) {
@@ -200,7 +199,7 @@ Probability find_probability(const Store& store, const CampaignInfo& campaign,
   if (conditions.empty()) refuse_unrun("probability", "no case has a result", campaign);
   const AskedRows rows = read_rows(store, campaign, request, selection, conditions);
   if (rows.label.empty())
-    throw InputError("probability", "no case was selected", "ask for others with --where");
+    throw InputError("probability", "no case was selected", "select others with --where");
   const std::vector<Part> parts = parts_asked(rows, request.by);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     for (const auto& [label, chosen] : parts) {
@@ -233,8 +232,8 @@ figure::IntervalChart chart_of(const Probability& p) {
   chart.remark = concat(p.campaign.name,
                         p.sampling.is_random
                             ? concat("; lines: ", confidence_text(p.request.confidence),
-                                     " bounds, what is undecided either way")
-                            : "; shares of the cases given; lines: what is undecided either way");
+                                     " bounds, undecided cases either way")
+                            : "; shares of the cases given; lines: undecided cases either way");
   chart.label = "share of cases";
   for (const Share& share : p.shares) {
     const ShareCounts& c = share.counts;
@@ -264,7 +263,7 @@ Answer to_answer(const Probability& p) {
   answer.blocks.emplace_back(AnswerChart(chart_of(p)));
   answer.note_if(meaning_of_bounds(p));
   if (p.n_for_half > 0) {
-    answer.note(concat("Half of the ± by the number takes ", grouped(p.n_for_half), " cases."));
+    answer.note(concat("Halving the ± by number needs ", grouped(p.n_for_half), " cases."));
   }
   answer.note_if(p.sampling.remark);
   answer.note_if(p.sampling.approximation);

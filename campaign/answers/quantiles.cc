@@ -156,18 +156,18 @@ Answer to_answer(const Quantiles& q) {
   answer.add(std::move(all));
   add_screen_tables(q, answer);
   if (q.sampling.is_random) {
-    answer.note(concat("Bounds hold each quantile with a confidence of ",
+    answer.note(concat("Bounds contain each quantile with a confidence of ",
                        confidence_text(q.request.confidence),
                        ", whatever the distribution; open: too few cases."));
     if (q.n_unknown > 0)
-      answer.note(concat(q.n_unknown, " cases without a history to its end may have any value."));
+      answer.note(concat(q.n_unknown, " cases without a full history may have any value."));
     answer.note_if(q.sampling.remark);
   } else {
     answer.note(
-        "Order statistics of what was run, no quantiles of a distribution: the cases were not "
+        "Order statistics of the cases run, not quantiles of a distribution: the cases were not "
         "drawn at random, so there are no bounds.");
     if (q.n_unknown > 0)
-      answer.note(concat(q.n_unknown, " cases without a history to its end have no value here."));
+      answer.note(concat(q.n_unknown, " cases without a full history have no value here."));
   }
   for (const MetricQuantiles& one : q.metrics) {
     if (one.n_without > 0)

@@ -131,24 +131,25 @@ Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
   sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol", "samples"});
   sampling.is_factorial = all_are({"grid"});
   if (all_are({"places"})) {
-    sampling.remark = "Places are no sample: shares are of these places, no probabilities.";
+    sampling.remark = "Places are not a sample: shares are of these places, not probabilities.";
   } else if (all_are({"samples"})) {
     sampling.remark =
-        "Samples of a file, taken to be independent: of a correlated chain intervals are too "
+        "Samples of a file, taken as independent: for a correlated chain, intervals are too "
         "narrow.";
   } else if (all_are({"latin-hypercube", "sobol"})) {
-    sampling.remark = "Samples are spread evenly: intervals are wider than they need be.";
+    sampling.remark = "Samples are spread evenly: intervals are wider than necessary.";
   } else if (sampling.is_factorial) {
     sampling.remark =
-        "A grid: shares are of the values given, each as often as the others, no probabilities.";
+        "A grid: shares are of the values given, each counted equally, not probabilities.";
   } else if (!sampling.is_random) {
     sampling.remark =
-        "The cases were not drawn at random: shares are of these cases, no probabilities.";
+        "The cases were not drawn at random: shares are of these cases, not probabilities.";
   }
   if (sampling.is_random && campaign.n_excluded > 0) {
-    sampling.remark += concat(sampling.remark.empty() ? "" : " ", campaign.n_excluded,
-                              " rows of the design are excluded by the spec: probabilities are of "
-                              "what is left.");
+    sampling.remark +=
+        concat(sampling.remark.empty() ? "" : " ", campaign.n_excluded,
+               " rows of the design are excluded by the spec: probabilities are those of "
+               "the rest.");
   }
   return sampling;
 }

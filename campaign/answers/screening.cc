@@ -37,14 +37,14 @@ std::vector<std::size_t> largest_first(const MetricEffects& metric) {
   return descending_places(magnitudes);
 }
 
-/// "F1.chi_bar moves most with offset: by 0.31 on average over its range (μ*), ..."
+/// "F1.chi_bar changes most with offset: by 0.31 on average over its range (μ*), ..."
 std::string sentence_of(const Screening& s, const MetricEffects& metric) {
   constexpr int kDigits = 2;
   const ShownUnit unit = unit_of(metric.metric, s.plane_strain);
   const std::vector<std::size_t> order = largest_first(metric);
   const ElementaryEffects& most = metric.effects[order[0]];
   std::string text =
-      concat(metric.metric.name, " moves most with ", s.parameters[order[0]], ": by ",
+      concat(metric.metric.name, " changes most with ", s.parameters[order[0]], ": by ",
              in_unit(most.mean_magnitude.value, unit, kDigits), " over its whole range on average");
   if (std::isfinite(most.mean_magnitude.bounds.low)) {
     text += concat(" (", format_number(most.mean_magnitude.bounds.low / unit.size, kDigits), " to ",
@@ -91,7 +91,7 @@ figure::BarChart chart_of(const Screening& s, const MetricEffects& metric) {
                            e.bounds.high / unit.size};
   };
   figure::BarChart chart;
-  chart.title = concat("What moves ", metric.metric.name, " in ", s.campaign.name);
+  chart.title = concat("What changes ", metric.metric.name, " in ", s.campaign.name);
   chart.remark = concat(s.n_trajectories, " trajectories; per whole range of a parameter");
   chart.label = unit.name.empty() ? "effect" : "effect, " + unit.name;
   chart.first_name = "μ*, how much";
@@ -110,23 +110,24 @@ figure::BarChart chart_of(const Screening& s, const MetricEffects& metric) {
 /// What the numbers are, and of how many rows.
 void add_notes(const Screening& s, Answer& answer) {
   answer.note(
-      "Elementary effects (Morris 1991): the change of the metric along a move of one parameter, "
-      "per whole range of it. μ* is the mean of their magnitudes, μ that with their signs; σ, "
-      "their standard deviation, is large where the effect depends on the other parameters or on "
-      "where it is.");
+      "Elementary effects (Morris 1991): the change of the metric as one parameter moves, scaled "
+      "to "
+      "its whole range. μ* is the mean of their magnitudes, μ that of their signed values; σ, "
+      "their standard deviation, is large if the effect depends on other parameters or on the "
+      "parameter's own value.");
   if (s.n_trajectories < kFewestForDeviation) {
     answer.note(concat(
         s.n_trajectories, " trajectories: intervals of ",
-        s.n_trajectories < kFewestTrajectories ? "μ* and μ" : "σ", " hold from ",
+        s.n_trajectories < kFewestTrajectories ? "μ* and μ" : "σ", " need at least ",
         s.n_trajectories < kFewestTrajectories ? kFewestTrajectories : kFewestForDeviation,
-        " on and are not told",
-        s.n_trajectories < kFewestTrajectories ? concat(", those of σ from ", kFewestForDeviation)
+        " and are left out",
+        s.n_trajectories < kFewestTrajectories ? concat(", those of σ need ", kFewestForDeviation)
                                                : std::string(),
         "."));
   }
   std::string rows = concat(s.n_rows - s.n_without, " of ", s.n_rows, " rows");
   if (s.n_without > 0)
-    rows += "; those without a history to its end take the effects before and behind them along";
+    rows += "; each without a full history removes the effects before and after it";
   if (s.n_unresolved > 0) {
     rows += concat("; ", s.n_unresolved,
                    " have an activation or event that the cells do not resolve, and count as "
@@ -143,10 +144,10 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   const std::vector<nlohmann::json> designs = designs_of(store, campaign);
   if (designs.size() != 1 || designs[0].at("kind") != "morris") return std::nullopt;
   if (!request.cases.where.empty() || campaign.n_excluded > 0) {
-    throw InputError(
-        "sensitivity", "a part of the cases of a morris design has broken trajectories",
-        request.cases.where.empty() ? "give the spec ranges of which nothing is excluded"
-                                    : "leave out --where");
+    throw InputError("sensitivity", "selecting cases of a morris design breaks its trajectories",
+                     request.cases.where.empty()
+                         ? "give the spec ranges from which nothing is excluded"
+                         : "leave out --where");
   }
   const Selection selection =
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
@@ -182,7 +183,8 @@ Answer to_answer(const Screening& s) {
       answer.headline.push_back(sentence_of(s, one));
     }
   }
-  if (answer.headline.empty()) answer.headline.emplace_back("No parameter moves any of this.");
+  if (answer.headline.empty())
+    answer.headline.emplace_back("No parameter changes any of these metrics.");
   answer.facts = {
       {"campaign", s.campaign.name},      {"kind", "effects"}, {"confidence", s.request.confidence},
       {"trajectories", s.n_trajectories}, {"rows", s.n_rows},  {"without_result", s.n_without},
@@ -192,7 +194,7 @@ Answer to_answer(const Screening& s) {
     if (varies(one)) answer.add(table_of(s, &one));
   for (const MetricEffects& one : s.metrics)
     if (varies(one)) answer.blocks.emplace_back(AnswerChart(chart_of(s, one)));
-  if (!constant.empty()) answer.note(concat("Moved by nothing: ", constant, "."));
+  if (!constant.empty()) answer.note(concat("Changed by nothing: ", constant, "."));
   add_notes(s, answer);
   return answer;
 }

@@ -62,7 +62,7 @@ class StatementReader {
   }
   double error(const std::string& text, Dimension dimension) {
     const double value = quantity(text, dimension);
-    if (value < 0) problem("an error is not negative", "write how far off it may well be");
+    if (value < 0) problem("the error is negative", "write it without the minus sign");
     return std::abs(value);
   }
 
@@ -100,7 +100,7 @@ class StatementReader {
     try {
       const auto metrics = choose_metrics(selection_, parts[1], true, false);
       if (metrics.size() != 1) {
-        problem("a statement is about one metric", kForms);
+        problem("a statement is about a single metric", kForms);
         return;
       }
       statement_.column = {metrics[0].sql, {}};

@@ -17,8 +17,8 @@ namespace {
 void refuse_what_is_no_sample(const Sensitivity& s) {
   if (s.request.by_step && !s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError("--by-step",
-                     concat("the cases of ", s.campaign.name, " are no sample or grid"),
-                     "leave it out: effects and changes are of metrics over a stage");
+                     concat("the cases of ", s.campaign.name, " are neither a sample nor a grid"),
+                     "leave it out: effects and changes are those of metrics over a stage");
   }
   if (!s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError(
@@ -28,12 +28,12 @@ void refuse_what_is_no_sample(const Sensitivity& s) {
         "one-at-a-time");
   }
   const long n = s.sample.n_rows - s.sample.n_without - s.sample.n_early;
-  if (n == 0) refuse_unrun("sensitivity", "no case has a history to its end", s.campaign);
+  if (n == 0) refuse_unrun("sensitivity", "no case has a full history", s.campaign);
   if (s.sampling.is_random && n < kFewestForRankIndex) {
     throw InputError(
         "sensitivity",
         concat(n, n == 1 ? " case with a full history is" : " cases with a full history are",
-               " too few: intervals of indices hold from ", kFewestForRankIndex, " on"),
+               " too few: intervals of indices need at least ", kFewestForRankIndex),
         concat("run at least ", kFewestForRankIndex));
   }
 }
@@ -47,13 +47,13 @@ std::string dependence_of(const Store& store, const CampaignInfo& campaign,
   if (any([](const json& one) { return one.contains("correlated"); }))
     return "Inputs are correlated";
   if (any([](const json& one) { return one.at("kind") == "samples"; }))
-    return "Inputs are samples of a file and may be correlated";
+    return "Inputs are samples from a file and may be correlated";
   const json spec = json::parse(store.spec_copies(campaign.id).resolved);
   if (spec.at("groups").size() > 1)
-    return "Groups of cases are taken together, so that inputs may be correlated";
+    return "Groups of cases are combined, so inputs may be correlated";
   if (!spec.value("exclude", json::array()).empty())
-    return "Cases are excluded, so that inputs are correlated";
-  if (!request.cases.where.empty()) return "Some cases are selected, so that inputs are correlated";
+    return "Cases are excluded, so inputs are correlated";
+  if (!request.cases.where.empty()) return "Only some cases are selected, so inputs are correlated";
   return "";
 }
 

@@ -62,8 +62,8 @@ AnswerTable total_order_table(const Sensitivity& s) {
   }
   if (any_left_out) {
     table.notes.emplace_back(
-        "A base sample counts where each of its rows has a value. Where few of all do, the indices "
-        "are of those few and of no others.");
+        "A base sample counts if each of its rows has a value. If few do, the indices are those of "
+        "these few only.");
   }
   table.in_files = false;
   return table;
@@ -81,10 +81,10 @@ std::string minima_text(const Sensitivity& s) {
                          std::ranges::any_of(one.first_order,
                                              [](const Estimate& e) { return e.value > kNearOne; }));
   }
-  if (!few.empty()) text = concat("Fewer rows than intervals take, so without indices: ", few, ".");
+  if (!few.empty()) text = concat("Without indices, as intervals need more rows: ", few, ".");
   if (any_near_one) {
     text += concat(text.empty() ? "" : " ", "Indices above ", kNearOne, " from fewer than ",
-                   kFewestForRankIndexNearOne, " rows are some thousandths too low.");
+                   kFewestForRankIndexNearOne, " rows are a few thousandths too low.");
   }
   return text;
 }
@@ -142,8 +142,8 @@ Answer to_answer(const Sensitivity& s) {
   if (answer.headline.empty()) {
     answer.headline.emplace_back(
         std::ranges::any_of(s.metrics, [](const MetricSensitivity& one) { return is_varying(one); })
-            ? "What varies has too few rows for indices."
-            : "Nothing of this varies.");
+            ? "The metrics that vary have too few rows for indices."
+            : "None of these metrics varies.");
   }
   answer.facts = facts_of(s, "shares");
   answer.add(index_table(s));

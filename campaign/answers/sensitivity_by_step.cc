@@ -96,11 +96,12 @@ AnswerTable step_table(const Sensitivity& s, std::size_t m) {
   }
   add({"all", AnswerCell(), AnswerCell()}, together);
   table.notes.emplace_back(
-      "all: the steps together, each counting as much as it varies. Spread is the standard "
-      "deviation, of all steps the root of their mean variance. Steps without shares do not vary, "
-      "or have fewer rows than intervals take.");
+      "all: the steps together, each weighted by its variance. Spread is the standard "
+      "deviation, for all steps the root of their mean variance. Steps without shares do not vary, "
+      "or have too few rows for intervals.");
   if (!has_times)
-    table.notes.emplace_back("Cases reach the steps at different times: steps are compared.");
+    table.notes.emplace_back(
+        "Cases reach the steps at different times: they are compared by step.");
   table.in_files = false;
   return table;
 }
@@ -136,7 +137,7 @@ figure::HistoryChart history_of(const Sensitivity& s) {
   chart.title = "What matters when in " + s.campaign.name;
   chart.remark = concat("share of the variance that each parameter explains alone; ",
                         s.sampling.is_factorial ? "those below 0.01 throughout are left out"
-                                                : "those that no step surely has are left out");
+                                                : "those not certain at any step are left out");
   chart.time_label = has_times ? "time, " + unit.name : "load step";
   for (const Store::LoadStep& one : s.steps)
     chart.time.push_back(has_times ? one.latest / unit.size : one.step);
@@ -180,8 +181,8 @@ Answer answer_by_step(const Sensitivity& s) {
   }
   if (any_varies) answer.blocks.emplace_back(AnswerChart(history_of(s)));
   if (answer.headline.empty()) {
-    answer.headline.emplace_back(any_varies ? "What varies has too few rows for indices."
-                                            : "Nothing of this varies.");
+    answer.headline.emplace_back(any_varies ? "The metrics that vary have too few rows for indices."
+                                            : "None of these metrics varies.");
   }
   answer.facts = facts_of(s, "shares-by-step");
   for (const std::string& one : meaning_of(s)) answer.note(one);

@@ -96,7 +96,7 @@ std::string rows_text(const Sensitivity& s) {
   leave(sample.n_early, " that end early");
   text += left_out;
   if (s.sampling.is_factorial && !left_out.empty())
-    text += ", so that the grid is not whole and the shares are of the rest";
+    text += ", so the grid is incomplete and the shares are those of the rest";
   if (sample.n_unresolved > 0) {
     text += concat("; ", sample.n_unresolved,
                    " have an activation or event that the cells do not resolve, and count as "
@@ -112,8 +112,8 @@ std::string sentence_of(const Sensitivity& s, const MetricSensitivity& metric) {
   const Estimate& most = metric.first_order[order[0]];
   const std::string &name = metric.metric.name, &first = s.parameters[order[0]];
   if (most.bounds.low <= 0) {
-    return concat("No parameter surely explains any of ", name, " alone; most has ", first, ", ",
-                  share_text(most), ".");
+    return concat("No parameter certainly explains any of ", name,
+                  " alone; the largest share is that of ", first, ", ", share_text(most), ".");
   }
   std::string text = concat(name, " depends most on ", first, ": ", share_text(most));
   if (order.size() > 1) {
@@ -183,21 +183,24 @@ std::vector<std::string> meaning_of(const Sensitivity& s) {
   std::vector<std::string> notes;
   if (s.sampling.is_factorial) {
     notes.emplace_back(
-        "Finite sums over the means of all cases that have a value of the parameter, each value as "
-        "likely as the others: of what was run these shares are exact, and there are no intervals, "
-        "as it is no random sample.");
+        "From the means over all cases with each value of the parameter, all values equally "
+        "likely: "
+        "for the cases run these shares are exact, and there are no intervals, as the cases are "
+        "not "
+        "a random sample.");
   } else {
     notes.push_back(concat("By ranks; ± is half of the interval of ",
                            confidence_text(s.request.confidence), "."));
   }
   notes.push_back(
       s.dependence.empty()
-          ? "What the shares of a row leave to 1 is interaction."
+          ? "What remains of 1 beyond the shares of a row is interaction."
           : concat(
                 s.dependence,
-                ": an index is the share that knowing the parameter alone would explain, shared "
-                "with what it is correlated with. The indices do not add up, and what they leave "
-                "to 1 is not interaction."));
+                ": an index is the share that knowing the parameter alone would explain, including "
+                "that of parameters correlated with it. The indices do not add up, and what "
+                "remains "
+                "of 1 is not interaction."));
   return notes;
 }
 

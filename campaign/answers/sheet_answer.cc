@@ -302,7 +302,7 @@ figure::RangeBars band_chart(const FaultSheet& sheet) {
   chart.label = concat("absolute pressure of the compartment beside ", sheet.fault, ", bar at ",
                        depth_text(sheet.datum));
   chart.key = {"no case slides", "the first begins to slide within", "some case slides", "",
-               "not all cases go so far"};
+               "not all cases go this far"};
   const CaseRange& start = sheet.initial.region_pressure;
   for (const PressureBand& b : sheet.bands) {
     std::string name = words_of_stage(b.name);
@@ -459,16 +459,16 @@ std::string pressure_note(const FaultSheet& sheet) {
       "Absolute pressures of the compartment beside the fault that changed more, referred "
       "to ",
       depth_text(sheet.datum), " along its fluid. ",
-      of_limits ? "Limits were searched, both ends are cases; what lies between values "
-                  "that were tried is not known."
-                : "Bands are by the load steps of histories; what lies within a step is "
+      of_limits ? "Limits were searched for, and both ends are cases; what lies between "
+                  "the values tried is not known."
+                : "Bands are by load steps of histories; what happens within a step is "
                   "not known.");
 }
 
 std::string share_note(const FaultSheet& sheet) {
   const std::string open = "what cells leave undecided and what has no full history may be either";
   if (share_word(sheet) == "probability") {
-    return concat("From and to hold the probability with a confidence of ",
+    return concat("From and to contain the probability with a confidence of ",
                   confidence_text(sheet.confidence), ": ", open, ".",
                   sheet.sampling.remark.empty() ? "" : " ", sheet.sampling.remark);
   }

@@ -89,7 +89,7 @@ std::vector<FaultOfSheet> faults_of(const SheetSource& source) {
   if (faults.empty()) {
     throw InputError(
         "--fault",
-        concat("the base scene has no fault \"", source.request.fault, "\" that results speak of"),
+        concat("the base scene has no fault \"", source.request.fault, "\" with results"),
         concat("it has ", joined(base.faults, ", ", &faultsim::Fault::name)));
   }
   return faults;
@@ -162,7 +162,7 @@ SheetSource read_sheet_source(const Store& store, const CampaignInfo& campaign,
     source.limits = make_limit_table(store, campaign);
     source.sampling.is_random = source.sampling.is_factorial = false;
     source.sampling.remark =
-        "Cases were chosen by the search for limits: shares are of what was run, no "
+        "Cases were chosen by the search for limits: shares are of the cases run, not "
         "probabilities.";
   }
   source.faults = faults_of(source);

@@ -84,7 +84,7 @@ std::string limit_band_words(const PressureBand& band) {
         where, "in ", grouped(band.n_at_once), all,
         " already at the safe end of the range searched",
         band.reached.is_known() ? concat(" (", range_words(band.reached, bars()), ")") : "",
-        ": no pressure of it is safe in all.", open_words(band));
+        ": no pressure is safe in all.", open_words(band));
   }
   const auto value = [](const std::optional<double>& absolute, double change) {
     return absolute ? bar_text(*absolute) : concat("a change of ", bar_text(change));
@@ -98,7 +98,7 @@ std::string limit_band_words(const PressureBand& band) {
                        all, " within the range searched).")
               : concat(", the end of the range searched.");
   if (band.n_undecided > 0 && band.surely_safe)
-    text += concat(" Whatever the cells leave open it is in none ", to_word(band.way),
+    text += concat(" Whatever the cells leave open, it is in none ", to_word(band.way),
                    bar_text(*band.surely_safe), ".");
   return text + open_words(band);
 }
@@ -125,9 +125,9 @@ std::string stage_band_words(const PressureBand& band) {
   return concat(where,
                 band.safe
                     ? concat("no case slides ", to_word(band.way), bar_text(*band.safe), "; by ",
-                             bar_text(*band.unsafe), ", one load step on, ", first, " does.")
+                             bar_text(*band.unsafe), ", one load step later, ", first, " does.")
                     : concat("by ", bar_text(*band.unsafe), " ", first,
-                             " does; the pressure one load step before is not known there."),
+                             " does; the pressure one load step earlier is not known there."),
                 open_words(band));
 }
 
@@ -137,17 +137,17 @@ std::string event_sentence(const FaultSheet& sheet, const SheetEvent& one, const
   const std::string size =
       e.magnitude ? concat("Mw ", format_number(*e.magnitude, 3), ", ") : std::string();
   const char* per_metre = one.plane_strain ? " per m of strike" : "";
-  return concat(which, " slip event that begins on ", sheet.fault, ": ", size, "M0 ",
-                format_number(e.moment, 3), " N m", per_metre, ", potency ",
-                format_number(e.potency, 3), " m3", per_metre, ", slip ",
-                in_unit(e.max_slip, {"mm", 1e-3, "m"}, 3), ", in ", words_of_stage(e.stage), " at ",
-                year_text(e.time), " and ", depth_text(e.depth), " depth",
-                absolute ? concat(", at ", bar_text(*absolute), " there") : "", " (case ",
-                one.position, "); ",
-                !e.resolved ? "not resolved: cells are too coarse for its size, which is the mesh's"
-                : !e.evidence_holds ? "resolved, but its evidence does not hold"
-                                    : "resolved",
-                ".");
+  return concat(
+      which, " slip event that begins on ", sheet.fault, ": ", size, "M0 ",
+      format_number(e.moment, 3), " N m", per_metre, ", potency ", format_number(e.potency, 3),
+      " m3", per_metre, ", slip ", in_unit(e.max_slip, {"mm", 1e-3, "m"}, 3), ", in ",
+      words_of_stage(e.stage), " at ", year_text(e.time), " and ", depth_text(e.depth), " depth",
+      absolute ? concat(", at ", bar_text(*absolute), " there") : "", " (case ", one.position,
+      "); ",
+      !e.resolved ? "not resolved: the cells are too coarse, and its size depends on the mesh"
+      : !e.evidence_holds ? "resolved, but its evidence does not hold"
+                          : "resolved",
+      ".");
 }
 
 std::string moment_words(const SheetEvents& events) {
@@ -253,7 +253,7 @@ std::vector<std::string> model_errors(const SheetSource& source, const SheetCoun
   const auto add = [&](long n, const char* what) {
     if (n > 0) left += concat(", ", grouped(n), what);
   };
-  add(counts.n_unresolved, " of them with something that their cells leave open");
+  add(counts.n_unresolved, " of them with something left open by their cells");
   add(counts.n_early, " end early");
   add(counts.n_failed, " failed");
   add(counts.n_waiting, " have not run");
@@ -264,7 +264,7 @@ std::vector<std::string> model_errors(const SheetSource& source, const SheetCoun
                      : "."));
   if (counts.n_unread > 0)
     all.push_back(concat("The scenes of ", grouped(counts.n_unread),
-                         " cases cannot be read any more: they are not in the initial state."));
+                         " cases can no longer be read: the initial state does not include them."));
   return all;
 }
 

@@ -35,7 +35,7 @@ void refuse_few(std::size_t n_pairs) {
 void refuse_missing(const std::vector<double>& values, const std::string& label) {
   if (std::ranges::all_of(values, [](double one) { return std::isfinite(one); })) return;
   throw InputError("--metrics", concat("full histories have no ", label),
-                   "ask for a metric that each has, or for a condition");
+                   "ask for a metric that all have, or for a condition");
 }
 
 /// A question with the columns that answer it.

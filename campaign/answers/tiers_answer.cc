@@ -82,8 +82,8 @@ std::string numbers_sentence(const TierAnswer& one) {
   const NumbersForWidth& first = one.numbers.front();
   const std::string bounds = concat("Bounds of ", name_of(one), " that are ",
                                     with_unit(2 * first.half_width, one.unit), " apart ");
-  if (!first.numbers) return bounds + "take more cases than can be run.";
-  return concat(bounds, "take ", grouped(first.numbers->n), " cases at the high tier and ",
+  if (!first.numbers) return bounds + "need more cases than can be run.";
+  return concat(bounds, "need ", grouped(first.numbers->n), " cases at the high tier and ",
                 grouped(first.numbers->all), " at the low one: ", seconds_text(first.numbers->cost),
                 ".");
 }
@@ -103,7 +103,7 @@ std::string pays_sentence(const Tiers& tiers) {
                                : concat("Two tiers pay for ", n_pays, " of ", n, " answers");
   const std::string from = format_number(least->cost_ratio, 2),
                     to = format_number(most->cost_ratio, 2);
-  return concat(pays, ": as sure from the high tier alone would have taken ", from,
+  return concat(pays, ": equal certainty from the high tier alone would have taken ", from,
                 from == to ? "" : concat(" to ", to), " times the ",
                 seconds_text(tiers.taken_seconds), " of wall clock that both took.");
 }
@@ -259,8 +259,8 @@ AnswerTable numbers_screen_table(const Tiers& tiers) {
     }
   }
   table.notes.emplace_back(
-      "The least time for it, operators included, if further cases are like those there are. What "
-      "undecided flags add does not become less.");
+      "The least time for it, operators included, if further cases are like the present ones. More "
+      "cases do not reduce what undecided flags add.");
   table.in_files = false;
   return table;
 }
@@ -308,15 +308,17 @@ std::string method_note(const Tiers& tiers) {
   if (has(TierQuestion::mean)) text += "Means are regressions on the low tier's value. ";
   if (has(TierQuestion::probability)) {
     text +=
-        "A probability is that of the high tier's flag, predicted for each case from what the low "
-        "tier says of it (χ̄, largest slip and activated area of the fault and stage that the "
-        "condition names, what it compares, and the flag; logistic regressions that have not seen "
-        "the case) and corrected by how far the predictions are off in the cases at both tiers. ";
+        "A probability is that of the high tier's flag, predicted for each case from its results "
+        "at "
+        "the low tier (χ̄, largest slip and activated area of the fault and stage that the "
+        "condition names, what it compares, and the flag; by logistic regressions fitted without "
+        "the case) and corrected by the predictions' errors in the cases at both tiers. ";
   }
   if (has(TierQuestion::quantile)) {
     text +=
-        "A quantile is where the probability to be below it, predicted by a line through what the "
-        "low tier says of the case and corrected by the cases at both tiers, is its share. ";
+        "A quantile is where the probability of lying below it, predicted by a line through the "
+        "low "
+        "tier's results and corrected by the cases at both tiers, equals its share. ";
   }
   text.pop_back();
   return text;
@@ -327,10 +329,9 @@ std::string undecided_note(const Tiers& tiers) {
   long most = 0;
   for (const TierAnswer& one : tiers.answers) most = std::max(most, one.n_undecided);
   if (most == 0) return "";
-  return concat(
-      "Of the flags at the high tier up to ", most, " of ", tiers.n_pairs,
-      " are undecided, by its cells or stated errors: from and to reach from none of them "
-      "to all.");
+  return concat("Of the flags at the high tier, up to ", most, " of ", tiers.n_pairs,
+                " are undecided, by its cells or stated errors: from and to allow for none of them "
+                "to all.");
 }
 
 /// "" where all that the low tier says could be used; else some of it.
@@ -345,7 +346,7 @@ std::string left_out_note(const Tiers& tiers) {
   const std::size_t more = names.size() - std::min(names.size(), kMostNames);
   names.resize(names.size() - more);
   return concat(
-      "The same in all cases of the low tier, or missing in some, and so not used to predict: ",
+      "Not used to predict, as constant over the cases of the low tier or missing in some: ",
       joined(names, ", "), more > 0 ? concat(" and ", more, " more") : "", ".");
 }
 
@@ -386,17 +387,17 @@ Answer to_answer(const Tiers& tiers) {
     answer.add(numbers_screen_table(tiers));
   }
   answer.note(concat(
-      tiers.n_pairs, " cases at both tiers. From and to hold the value with a confidence of ",
+      tiers.n_pairs, " cases at both tiers. From and to contain the value with a confidence of ",
       confidence_text(tiers.request.confidence),
       "; ± is half of their distance. `worth`: cases of the high tier alone "
-      "that would be as sure. `pays`: what these would have taken, against what both tiers took."));
+      "with equal certainty. `pays`: the time of these against that of both tiers."));
   answer.note(method_note(tiers));
   answer.note_if(undecided_note(tiers));
   answer.note_if(left_out_note(tiers));
   answer.add(cost_table(tiers));
   if (tiers.low_cost.n_left_out + tiers.high_cost.n_left_out > 0) {
     answer.note(
-        "Cases without a history to its end are left out: the answers hold if these are like the "
+        "Cases without a full history are left out: the answers hold if these are like the "
         "others.");
   }
   return answer;

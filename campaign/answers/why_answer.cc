@@ -89,7 +89,8 @@ std::string fault_sentence(const Why& why, std::size_t f) {
                    pressures(m.activation->pressures, why.ranking.pressures));
   }
   const std::string stages = sliding_stages(result, f);
-  if (why.metrics.stage.empty() && !stages.empty()) text += "; by slip of its own in " + stages;
+  if (why.metrics.stage.empty() && !stages.empty())
+    text += "; counting slip within each stage, in " + stages;
   return text + ".";
 }
 
@@ -116,7 +117,7 @@ std::vector<std::string> what_happens(const Why& why) {
       mapped(order_of_faults(why), [&](const std::size_t& f) { return fault_sentence(why, f); });
   const double margin = why.row.pressure_margin.value_or(NAN);
   if (why.metrics.stage.empty() && std::isfinite(margin)) {
-    sentences.push_back(concat("By linear extrapolation χ̄ would be 1 after ",
+    sentences.push_back(concat("By linear extrapolation, χ̄ would be 1 after ",
                                format_number(margin / kBar, 3), " bar more."));
   }
   return sentences;
@@ -144,12 +145,12 @@ const char* kind_of(int rank_class) {
   return kKinds[std::clamp(rank_class, 0, 2)];
 }
 
-/// "Case 17 of sweep (offset = 100 m) has place 3 of 240 complete histories: chi_bar 0.83."
+/// "Case 17 of sweep (offset = 100 m) ranks 3 of 240 complete histories: chi_bar 0.83."
 std::string place_sentence(const Why& why) {
   const auto& parameters = why.ranking.campaign.parameters;
   const std::string settings = settings_of(why.row.parameters, parameters, short_number);
   return concat("Case ", why.row.position, " of ", why.ranking.campaign.name,
-                settings.empty() ? "" : concat(" (", settings, ")"), " has place ", why.place.place,
+                settings.empty() ? "" : concat(" (", settings, ")"), " ranks ", why.place.place,
                 " of ", why.place.n_ranked, " ", kind_of(why.row.rank_class), ": ", why.compared,
                 " = ", in_unit(why.value, unit_of(why)), ".");
 }
@@ -166,13 +167,13 @@ std::string confidence_note(const Why& why) {
                   named ? " (rms that the tier " : " (rms at ", place.error->tier,
                   named ? " names, against " : " against ", place.error->reference, "): ",
                   place.ties.empty() ? "no other case is" : ties + (has_one ? " is" : " are"),
-                  " within √2 times that; among those the order says nothing.");
+                  " within √2 times that; the order among those means nothing.");
   }
   const std::string same =
       place.ties.empty() ? "" : concat(ties, has_one ? " has" : " have", " the very same value. ");
   return concat(same, "The error of the mesh in ", why.compared,
-                " was not measured for this campaign, so closer places than its cells allow are "
-                "not told apart here: faultsweep tradeoff SPEC measures that of chi_bar and "
+                " was not measured for this campaign, so cases closer than that are not "
+                "told apart here: faultsweep tradeoff SPEC measures that of chi_bar and "
                 "max_slip.");
 }
 
@@ -246,8 +247,8 @@ AnswerTable nearest_table(const Why& why) {
     table.rows.push_back(std::move(cells));
   }
   table.notes = {
-      "distance: of each parameter the difference over its standard deviation in the campaign, 1 "
-      "where words differ; the root of the sum of the squares"};
+      "distance: root of the sum of squares of each parameter's difference over its standard "
+      "deviation in the campaign, or 1 where words differ"};
   return table;
 }
 
@@ -280,10 +281,10 @@ AnswerTable slopes_table(const Why& why) {
   table.notes = {concat("by a plane through the ", why.plane.n_cases,
                         " nearest cases with the same words, up to ",
                         format_number(why.plane.radius, 2),
-                        " standard deviations away, nearer ones counting more; ± is the standard "
+                        " standard deviations away, nearer ones weighted more; ± is the standard "
                         "error from their scatter about it (",
                         in_unit(why.plane.scatter, unit_of(why)),
-                        "). A slope is of that neighbourhood, not of the case alone.")};
+                        "). A slope is that of this neighbourhood, not of the case alone.")};
   return table;
 }
 
@@ -316,9 +317,9 @@ std::string most_sentence(const Why& why) {
   if (!why.neighbours.empty()) {
     const Neighbour& most = why.neighbours.front();
     if (!(std::abs(most.change) > 0))
-      return concat("No one parameter moved alone changes ", why.compared, ".");
-    return concat("Most changes with ", most.parameter, ": from ", short_number(most.from), " to ",
-                  short_number(most.to), ", ", why.compared, " goes from ",
+      return concat("No parameter changes ", why.compared, " on its own.");
+    return concat("The largest change is with ", most.parameter, ": from ", short_number(most.from),
+                  " to ", short_number(most.to), ", ", why.compared, " goes from ",
                   in_unit(why.value, unit_of(why)), " to ", in_unit(most.value, unit_of(why)), ".");
   }
   if (why.plane.slopes.empty()) return "";
@@ -328,10 +329,10 @@ std::string most_sentence(const Why& why) {
   const double size = unit_of(why).size;
   const std::string unit = unit_of(why).name;
   if (std::abs(most.per_deviation) < kSure * most.error)
-    return concat("Near this case no parameter changes ", why.compared, " for certain.");
-  return concat("Near this case ", why.compared, " changes most with ", name, ": by ",
+    return concat("Near this case, no parameter certainly changes ", why.compared, ".");
+  return concat("Near this case, ", why.compared, " changes most with ", name, ": by ",
                 with_error(most.per_deviation / size, most.error / size), unit.empty() ? "" : " ",
-                unit, " for each standard deviation of it.");
+                unit, " for each of its standard deviations.");
 }
 
 nlohmann::ordered_json facts_of(const Why& why) {

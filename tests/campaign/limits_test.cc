@@ -111,7 +111,7 @@ TEST_F(Limits, AWrongQuestionIsRefusedBeforeAnythingIsStored) {
   EXPECT_THAT(wrong.err, HasSubstr("/limits/storage_pressure/unsafe"));
   EXPECT_THAT(wrong.err, HasSubstr("F9"));
   spec_.erase("limits");
-  EXPECT_THAT(faultsweep({"limits", file()}).err, HasSubstr("searches no limits"));
+  EXPECT_THAT(faultsweep({"limits", file()}).err, HasSubstr("does not search for limits"));
   EXPECT_FALSE(std::filesystem::exists(store_ / "campaign.sqlite"));
 }
 

@@ -74,7 +74,7 @@ TEST_F(FaultSheets, ABandEndsWithTheLoadStepInWhichTheFirstCaseSlides) {
   EXPECT_NEAR(falls.reached.low, kSheetStart - 200e5, 1);
   EXPECT_NEAR(falls.begin.value(), kSheetStart, 1);
   const std::string words = band_words(falls);
-  EXPECT_THAT(words, HasSubstr("no case slides down to 131 bar; by 81 bar, one load step on"));
+  EXPECT_THAT(words, HasSubstr("no case slides down to 131 bar; by 81 bar, one load step later"));
   EXPECT_THAT(words, HasSubstr("the first (case 2; 2 of 5 cases slide) does"));
   EXPECT_THAT(words, HasSubstr("Left open: 1 undecided by cells, 1 without a full history."));
 }

@@ -92,7 +92,7 @@ TEST(LimitAnswer, SaysWhatIsSafeInWordsThatAreNotReadAsTheirContrary) {
   EXPECT_EQ(
       answer.headline.at(0),
       "storage_pressure: 1 of 4 is safe in the whole range tried (-110 to 0 bar), 1 is unsafe "
-      "already at -110 bar, 2 are safe up to a limit. The first limit from -110 bar on is "
+      "already at -110 bar, 2 are safe up to a limit. The first limit, starting from -110 bar, is "
       "that of F2 at offset = 200 m, friction_angle = 24 deg: safe at -71 bar, unsafe at -70 "
       "bar.");
 }
@@ -109,7 +109,7 @@ TEST(LimitAnswer, TellsWhatIsSureFromWhatCameOut) {
   EXPECT_EQ(rows[2].at("surely_safe").get<double>(), -60 * kBar);
   EXPECT_EQ(rows[2].at("surely_unsafe").get<double>(), -10 * kBar);
   EXPECT_THAT(render_text(answer, 1000), HasSubstr("[-60, -10] bar"));
-  EXPECT_THAT(render_text(answer, 1000), HasSubstr("what lies between them is undecided"));
+  EXPECT_THAT(render_text(answer, 1000), HasSubstr("between which it is undecided"));
   // One end that is open is enough.
   std::vector<SearchPoint> points = searched(-30.5).finding.points;
   for (SearchPoint& one : points) one.resolved = one.value != -30;
@@ -242,7 +242,7 @@ TEST(LimitAnswer, TwoLimitsStandSideBySide) {
   EXPECT_THAT(render_text(answer, 1000), HasSubstr("[-59, -60] bar"));
   EXPECT_EQ(render_json(answer).at("limits").size(), 5u);
   ASSERT_EQ(answer.headline.size(), 2u);
-  EXPECT_THAT(answer.headline[1], HasSubstr("The first limit from 0 bar on"));
+  EXPECT_THAT(answer.headline[1], HasSubstr("The first limit, starting from 0 bar,"));
 }
 
 }  // namespace

@@ -120,13 +120,14 @@ TEST(LocalPlane, FollowsACurvedFunctionNearTheCase) {
 }
 
 TEST(LocalPlane, IsRefusedWhereItWouldSayTooMuch) {
-  EXPECT_THAT(local_plane(drawn(30, 5), linear(drawn(30, 5)), 0).reason,
-              HasSubstr("slopes of 2 parameters take 20 cases with the same words, there are 14"));
+  EXPECT_THAT(
+      local_plane(drawn(30, 5), linear(drawn(30, 5)), 0).reason,
+      HasSubstr("slopes of 2 parameters need 20 cases with the same words, and there are 14"));
   ParameterSpace together = drawn(100, 6);
   for (std::size_t k = 0; k < 100; ++k)
     together.columns[1].values[k] = 500 * together.columns[0].values[k];
   const LocalPlane plane = local_plane(together, linear(together), 0);
-  EXPECT_THAT(plane.reason, HasSubstr("do not vary the parameters apart"));
+  EXPECT_THAT(plane.reason, HasSubstr("do not vary the parameters independently"));
   EXPECT_TRUE(plane.slopes.empty());
   ParameterSpace words;
   words.columns = {{"rule", {1, 2, 1}, true}};

@@ -387,7 +387,7 @@ TEST_F(AnswersTest, OfChosenCasesOrderStatisticsWithoutBounds) {
   const std::string text = render_text(answer, 1000);
   EXPECT_THAT(text,
               HasSubstr("of the 20 cases that were run and have a value 5 % have at most 0.025"));
-  EXPECT_THAT(text, HasSubstr("Order statistics of what was run"));
+  EXPECT_THAT(text, HasSubstr("Order statistics of the cases run"));
   EXPECT_THAT(text, Not(HasSubstr("confidence")));
   EXPECT_FALSE(render_json(answer).at("quantiles").at(0).contains("low"));
 }
@@ -401,7 +401,7 @@ TEST_F(AnswersTest, PlacesAreNoSample) {
   EXPECT_FALSE(found.sampling.is_random);
   EXPECT_EQ(found.shares.at(0).counts.n_holds, 10);
   const std::string text = render_text(to_answer(found), 1000);
-  EXPECT_THAT(text, HasSubstr("Places are no sample: shares are of these places"));
+  EXPECT_THAT(text, HasSubstr("Places are not a sample: shares are of these places"));
   EXPECT_THAT(text, Not(HasSubstr("confidence")));
   EXPECT_EQ(found.shares.at(0).bounds.low, 0.5) << "no sample, no bound";
   EXPECT_EQ(found.shares.at(0).bounds.high, 0.5);

@@ -42,7 +42,7 @@ TEST(SensitivityAnswer, BeginsWithWhatMattersMost) {
             "F1.chi_bar depends most on parameter_1: 0.61 of its variance (0.58 to 0.64), then on "
             "parameter_0, 0.21.");
   EXPECT_THAT(answer.headline[1], HasSubstr("not told apart from parameter_0, 0.3."));
-  EXPECT_THAT(answer.headline[2], HasSubstr("No parameter surely explains any of F3.chi_bar"));
+  EXPECT_THAT(answer.headline[2], HasSubstr("No parameter certainly explains any of F3.chi_bar"));
 }
 
 TEST(SensitivityAnswer, HasTheDigitsThatTheErrorAllows) {
@@ -79,7 +79,7 @@ TEST(SensitivityAnswer, SaysOfHowManyBaseSamplesTotalsAre) {
   const Answer answer = to_answer(s);
   testing::expect_same_renderings(answer);
   EXPECT_THAT(render_text(answer, 60), HasSubstr("29 of 512"));
-  EXPECT_THAT(render_text(answer, 1000), HasSubstr("of those few and of no others"));
+  EXPECT_THAT(render_text(answer, 1000), HasSubstr("the indices are those of these few only"));
   EXPECT_EQ(render_json(answer).at("indices").back().at("base_samples"), 29);
 }
 
@@ -89,7 +89,7 @@ TEST(SensitivityAnswer, NothingThatVariesIsAnAnswerToo) {
   const Answer answer = to_answer(s);
   testing::expect_same_renderings(answer);
   EXPECT_THAT(render_text(answer), HasSubstr("The same in all cases: F1.chi_bar."));
-  EXPECT_EQ(answer.headline.at(0), "Nothing of this varies.");
+  EXPECT_EQ(answer.headline.at(0), "None of these metrics varies.");
 }
 
 }  // namespace

@@ -142,7 +142,7 @@ TEST_F(ByStep, ARareFlagHasNoIndices) {
   const Sensitivity s = analysed({.metrics = "F1.slides"});
   EXPECT_TRUE(s.metrics.back().first_order.empty());
   EXPECT_TRUE(s.over_steps.at(0).first_order.empty());
-  EXPECT_EQ(to_answer(s).headline.at(0), "What varies has too few rows for indices.");
+  EXPECT_EQ(to_answer(s).headline.at(0), "The metrics that vary have too few rows for indices.");
 }
 
 TEST_F(ByStep, AStageHasItsSteps) {
@@ -161,16 +161,16 @@ TEST_F(ByStep, WhatHasNoStepsIsRefusedInOneMessage) {
   record();
   const std::string text =
       refusal({.metrics = "chi_bar, F1.activation_depth, F2.chi_bar in gas_storage"});
-  EXPECT_THAT(text, HasSubstr("chi_bar at a load step is of a fault"));
+  EXPECT_THAT(text, HasSubstr("chi_bar at a load step belongs to a fault"));
   EXPECT_THAT(text, HasSubstr("F1.activation_depth is not kept load step by load step"));
-  EXPECT_THAT(text, HasSubstr("F2.chi_bar in gas_storage is of a stage"));
+  EXPECT_THAT(text, HasSubstr("F2.chi_bar in gas_storage belongs to a stage"));
 }
 
 TEST_F(ByStep, OtherLoadStepsAreNotCompared) {
   for (int k = 0; k < 200; ++k) add(0.001 * k, 0.5, k < 150 ? 12 : 6);
   submit_as("monte-carlo");
   record();
-  EXPECT_THAT(refusal({}), HasSubstr("their stages are divided differently"));
+  EXPECT_THAT(refusal({}), HasSubstr("their stages have different steps"));
 }
 
 TEST_F(ByStep, WithoutAResultThereIsNothingToSay) {
@@ -184,7 +184,7 @@ TEST_F(ByStep, TrajectoriesHaveNoSteps) {
   add_random(200);
   submit_as("morris");
   record();
-  EXPECT_THAT(refusal({}), HasSubstr("no sample or grid"));
+  EXPECT_THAT(refusal({}), HasSubstr("neither a sample nor a grid"));
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST_F(AnswersTest, OfCorrelatedInputsNothingIsSaidOfInteraction) {
   record();
   const std::string correlated = text({.metrics = "F1.chi_bar"});
   EXPECT_THAT(correlated, HasSubstr("Inputs are correlated: an index is the share that knowing the "
-                                    "parameter alone would explain, shared with what"));
+                                    "parameter alone would explain, including that of"));
   EXPECT_THAT(correlated, HasSubstr("is not interaction"));
   EXPECT_THAT(correlated, Not(HasSubstr("together")));
 }

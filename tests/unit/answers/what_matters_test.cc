@@ -85,7 +85,7 @@ TEST_F(WhatMatters, TrajectoriesGiveElementaryEffects) {
   const Answer answer = what_matters(*store_, campaign_, {.metrics = "F1.chi_bar"});
   testing::expect_same_renderings(answer);
   EXPECT_THAT(answer.headline.at(0),
-              HasSubstr("F1.chi_bar moves most with friction: by 0.33 over its "
+              HasSubstr("F1.chi_bar changes most with friction: by 0.33 over its "
                         "whole range on average (0.32 to 0.3"));
   const json document = render_json(answer);
   EXPECT_EQ(document.at("kind"), "effects");
@@ -103,8 +103,8 @@ TEST_F(WhatMatters, FewTrajectoriesHaveNoIntervals) {
   EXPECT_TRUE(std::isnan(s.metrics[0].effects[0].mean_magnitude.bounds.low));
   EXPECT_TRUE(std::isnan(s.metrics[0].effects[0].deviation.bounds.low));
   const std::string text = render_text(to_answer(s), 1000);
-  EXPECT_THAT(text, HasSubstr("10 trajectories: intervals of μ* and μ hold from 30 on and are not "
-                              "told, those of σ from 50."));
+  EXPECT_THAT(text, HasSubstr("10 trajectories: intervals of μ* and μ need at least 30 and are "
+                              "left out, those of σ need 50."));
   EXPECT_THAT(text, Not(HasSubstr("±")));
 }
 
@@ -148,7 +148,7 @@ TEST_F(WhatMatters, OneAtATimeIsATornado) {
   const Answer answer = what_matters(*store_, campaign_, {.metrics = "F1.chi_bar"});
   testing::expect_same_renderings(answer);
   EXPECT_EQ(answer.headline.at(0),
-            "F1.chi_bar is 0.3 in the base case; it moves most with offset: 0.3 (base) to 0.62 "
+            "F1.chi_bar is 0.3 in the base case; it changes most with offset: 0.3 (base) to 0.62 "
             "(120.000000 m).");
   const json moves = render_json(answer).at("moves");
   ASSERT_EQ(moves.size(), 5u);
@@ -264,7 +264,7 @@ TEST_F(WhatMatters, AGridThatIsNotWholeHasNoTotals) {
   const Sensitivity s = analyse_sensitivity(*store_, campaign_, {.metrics = "F1.chi_bar"});
   EXPECT_NEAR(s.metrics.at(0).first_order.at(0).value, 1, 1e-12);
   EXPECT_TRUE(s.metrics[0].total_order.empty());
-  EXPECT_THAT(render_text(to_answer(s), 1000), HasSubstr("the grid is not whole"));
+  EXPECT_THAT(render_text(to_answer(s), 1000), HasSubstr("the grid is incomplete"));
 }
 
 TEST_F(WhatMatters, FewRandomCasesAreRefused) {
@@ -278,7 +278,7 @@ TEST_F(WhatMatters, FewRandomCasesAreRefused) {
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("127 cases with a full history are too few: intervals of "
-                                        "indices hold from 128 on"));
+                                        "indices need at least 128"));
   }
 }
 
@@ -293,7 +293,7 @@ TEST_F(WhatMatters, RoundingIsNotExplained) {
   submit_as("monte-carlo");
   record();
   const Answer answer = what_matters(*store_, campaign_, {.metrics = "F1.chi_bar"});
-  EXPECT_EQ(answer.headline.at(0), "Nothing of this varies.");
+  EXPECT_EQ(answer.headline.at(0), "None of these metrics varies.");
   EXPECT_THAT(render_text(answer, 1000), HasSubstr("The same in all cases: F1.chi_bar."));
   const auto indices = render_json(answer).at("indices");
   for (const auto& one : indices) EXPECT_EQ(one.at("value"), 0);
@@ -317,9 +317,8 @@ TEST_F(WhatMatters, MetricsWithFewRowsHaveNoIndices) {
   const Answer answer = to_answer(s);
   testing::expect_same_renderings(answer);
   const std::string text = render_text(answer, 1000);
-  EXPECT_THAT(text,
-              HasSubstr("Fewer rows than intervals take, so without indices: F1.slides (true in 12 "
-                        "rows of 20), F1.activation_depth (12 rows of 128)."));
+  EXPECT_THAT(text, HasSubstr("Without indices, as intervals need more rows: F1.slides (true in 12 "
+                              "rows of 20), F1.activation_depth (12 rows of 128)."));
 }
 
 /// Answers over interpolated results say so, with their errors, and how many there are.

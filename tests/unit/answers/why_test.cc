@@ -43,12 +43,12 @@ TEST_F(AnswersTest, WhyListsWhatOneParameterAloneChanges) {
   EXPECT_THAT(found.no_global, HasSubstr("not a sample"));
   const Answer answer = to_answer(found);
   const std::string text = render_text(answer, 1000);
-  EXPECT_THAT(text, HasSubstr("Case 1 of sweep (strength = 0.8, offset = 100 m, rule = mean) has "
-                              "place 2 of 9 complete histories: activated_area = 4.5e+04 m²."));
+  EXPECT_THAT(text, HasSubstr("Case 1 of sweep (strength = 0.8, offset = 100 m, rule = mean) "
+                              "ranks 2 of 9 complete histories: activated_area = 4.5e+04 m²."));
   EXPECT_THAT(text,
               HasSubstr("F1 slides first in primary_production, load step 1 (year 1), at 2000 "
                         "m depth: west has changed by -10 bar (190 bar absolute)"));
-  EXPECT_THAT(text, HasSubstr("Most changes with strength"));
+  EXPECT_THAT(text, HasSubstr("The largest change is with strength"));
   const auto document = render_json(answer);
   EXPECT_EQ(document.at("local").size(), 4u);
   EXPECT_TRUE(document.at("nearest").empty());
