@@ -156,7 +156,7 @@ class LadderMaker {
   }
 
   void half_domain() {
-    TradeAxis& one = axis("half domain", "What does half of the domain by symmetry cost?");
+    TradeAxis& one = axis("half domain", "What does the half domain by symmetry cost?");
     add(one, "half", coarse_3d_, {{"/numerics/half_domain", "on"}});
     add(one, "full", coarse_3d_, {{"/numerics/half_domain", "off"}});
   }
@@ -201,7 +201,7 @@ class LadderMaker {
     const auto fixed = [](double step) {
       return std::vector<Change>{{"/numerics/creep_time_step", shortest(step) + " s"}};
     };
-    TradeAxis& one = axis("salt steps", "How long may the time steps of the salt be?");
+    TradeAxis& one = axis("salt steps", "How long may the time steps of creep be?");
     one.converges = true;
     add(one, "error control (as given)", plane_, {});
     add(one, duration(longest) + ", backward Euler", plane_,
@@ -212,7 +212,7 @@ class LadderMaker {
   }
 
   void tolerance() {
-    TradeAxis& one = axis("tolerance of contact", "How exactly must contact be solved?");
+    TradeAxis& one = axis("tolerance of contact", "How accurately must contact be solved?");
     for (const double value : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10}) {
       add(one, shortest(value) + (value == 1e-8 ? " (default)" : ""), plane_,
           {{"/numerics/traction_tolerance", value}});
@@ -220,14 +220,14 @@ class LadderMaker {
   }
 
   void b_bar() {
-    TradeAxis& one = axis("B-bar", "What does the mean dilatation of cells change?");
+    TradeAxis& one = axis("B-bar", "What does averaging dilatation over cells change?");
     add(one, "off", plane_, {{"/numerics/b_bar", false}});
     add(one, "on (default)", plane_, {{"/numerics/b_bar", true}});
   }
 
   void activation_length() {
-    TradeAxis& one =
-        axis("activation length", "How much depends on the length that must slip to count?");
+    TradeAxis& one = axis("activation length",
+                          "How much depends on the length that must slip to count as sliding?");
     one.reference = in_metres(scene_.numerics.activation_length);
     for (const double factor : {0.5, 1.0, 2.0}) {
       const std::string length = in_metres(factor * scene_.numerics.activation_length);

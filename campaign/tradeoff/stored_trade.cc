@@ -51,8 +51,8 @@ std::optional<TradeRecord> trade_of(const Store& store, const CampaignInfo& camp
 Answer to_answer(const TradeRecord& trade) {
   const json document = json::parse(trade.report);
   Answer answer;
-  answer.note(concat("What each choice of model costs was measured on ", trade.source,
-                     ", one scene (", format_time(trade.at), ", faultsweep tradeoff, version ",
+  answer.note(concat("What each modelling choice costs was measured on one scene, ", trade.source,
+                     " (", format_time(trade.at), ", faultsweep tradeoff, version ",
                      trade.program_version, "); the choices are the cases of ", trade.campaign,
                      "."));
   for (const json& sentence : document.at("answers")) answer.note(sentence.get<std::string>());

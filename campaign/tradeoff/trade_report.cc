@@ -101,9 +101,10 @@ std::string reference_of(const TradeTable& table) {
   std::string text = "reference: " + table.reference;
   if (table.axis.converges && !std::isnan(table.chi.order)) {
     text += concat("; observed order of χ̄ ", number(table.chi.order, 2));
-    text += table.chi.extrapolated ? concat(", uncertain by ", number(table.chi.uncertainty, 2))
-                                   : concat(": orders do not hold, not extrapolated, uncertain by ",
-                                            number(table.chi.uncertainty, 2));
+    text += table.chi.extrapolated
+                ? concat(", uncertain by ", number(table.chi.uncertainty, 2))
+                : concat(": the orders are inconsistent, not extrapolated, uncertain by ",
+                         number(table.chi.uncertainty, 2));
   }
   return text;
 }
@@ -167,12 +168,11 @@ bool lacks_space(const TradeReport& report) {
 std::string recommendation(const TradeReport& report) {
   const MeshReference& reference = report.trade.reference;
   if (!chi_says_something(reference.history)) {
-    return "No mesh is recommended: χ̄ is nowhere above 0.001, or there is none; judge by slip and "
-           "M0.";
+    return "No mesh is recommended, as χ̄ is missing or nowhere above 0.001; judge by slip and M0.";
   }
   if (!(reference.uncertainty <= report.wanted_chi)) {
     return concat("No mesh can be recommended for χ̄ within ", number(report.wanted_chi),
-                  ": what they are measured against is itself uncertain by ",
+                  ": the reference is itself uncertain by ",
                   std::isnan(reference.uncertainty) ? std::string("an unknown amount")
                                                     : number(reference.uncertainty, 2),
                   "; allow finer cells (--operator-limit, --memory).");
@@ -186,7 +186,7 @@ std::string recommendation(const TradeReport& report) {
       "For χ̄ within ", number(report.wanted_chi), ": ", row->choice.name,
       row->choice.plane_strain ? ", plane strain" : ", 3D", ", which is off by ",
       number(row->total_chi, 2), " and takes ", number(row->seconds()), " s with its operator",
-      lacks_space(report) ? "; 3D was not run, what plane strain costs is not in that." : ".");
+      lacks_space(report) ? "; 3D was not run, so this leaves out what plane strain costs." : ".");
 }
 
 /// What the choice of that axis costs, in one sentence; "" where it was not run.
@@ -199,7 +199,7 @@ std::string sentence(const TradeReport& report, const std::string& axis, std::si
     std::string text =
         concat(subject, ", ", row.choice.name, ", cost up to ", number(row.error.chi, 2), " in χ̄");
     if (row.error.chi > 0) text += concat(" (", row.error.where, ")");
-    if (row.error.activation_pressure == 0) text += " and leave the pressure of activation";
+    if (row.error.activation_pressure == 0) text += " and do not change the pressure of activation";
     if (std::abs(row.error.activation_pressure) > 0)
       text += concat(" and ", in_bar(std::abs(row.error.activation_pressure)),
                      " bar in the pressure of activation");
@@ -216,7 +216,7 @@ std::string plane_strain_sentence(const TradeReport& report) {
       concat("Plane strain costs up to ", number(cost->chi(), 2), " in χ̄: ", number(cost->plane, 3),
              " instead of ", number(cost->space, 3), " in 3D (", cost->where, ", cells of ",
              number(cost->cells), " m in both; ");
-  text += std::isnan(cost->uncertainty) ? std::string("no finer pair says how certain that is)")
+  text += std::isnan(cost->uncertainty) ? std::string("no finer pair shows how certain that is)")
                                         : concat("the last refinement changed that by up to ",
                                                  number(cost->uncertainty, 2), ")");
   const double earlier = cost->activation_pressure;

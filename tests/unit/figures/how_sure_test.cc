@@ -135,7 +135,7 @@ TEST_F(HowSureTest, HasTheChartOfTheTradeAndItsSentences) {
   const std::string html = page(sweep);
   EXPECT_THAT(html, HasSubstr(draw(trade_figures(report).pareto)));
   EXPECT_THAT(html, HasSubstr("For χ̄ within 0.02: &lt;20 m&gt;, 3D."));
-  EXPECT_THAT(html, HasSubstr("was measured on rotliegend.json, one scene ("));
+  EXPECT_THAT(html, HasSubstr("was measured on one scene, rotliegend.json ("));
   EXPECT_THAT(html, Not(HasSubstr(kNotMeasured)));
   EXPECT_THAT(html, HasSubstr("Errors of these cases at their own mesh were not measured"));
 }
