@@ -111,8 +111,7 @@ figure::BarChart chart_of(const Screening& s, const MetricEffects& metric) {
 void add_notes(const Screening& s, Answer& answer) {
   answer.note(
       "Elementary effects (Morris 1991): the change of the metric as one parameter moves, scaled "
-      "to "
-      "its whole range. μ* is the mean of their magnitudes, μ that of their signed values; σ, "
+      "to its whole range. μ* is the mean of their magnitudes, μ that of their signed values; σ, "
       "their standard deviation, is large if the effect depends on other parameters or on the "
       "parameter's own value.");
   if (s.n_trajectories < kFewestForDeviation) {

@@ -184,10 +184,8 @@ std::vector<std::string> meaning_of(const Sensitivity& s) {
   if (s.sampling.is_factorial) {
     notes.emplace_back(
         "From the means over all cases with each value of the parameter, all values equally "
-        "likely: "
-        "for the cases run these shares are exact, and there are no intervals, as the cases are "
-        "not "
-        "a random sample.");
+        "likely: for the cases run these shares are exact, and there are no intervals, as the "
+        "cases are not a random sample.");
   } else {
     notes.push_back(concat("By ranks; ± is half of the interval of ",
                            confidence_text(s.request.confidence), "."));
@@ -199,8 +197,7 @@ std::vector<std::string> meaning_of(const Sensitivity& s) {
                 s.dependence,
                 ": an index is the share that knowing the parameter alone would explain, including "
                 "that of parameters correlated with it. The indices do not add up, and what "
-                "remains "
-                "of 1 is not interaction."));
+                "remains of 1 is not interaction."));
   return notes;
 }
 

@@ -309,16 +309,14 @@ std::string method_note(const Tiers& tiers) {
   if (has(TierQuestion::probability)) {
     text +=
         "A probability is that of the high tier's flag, predicted for each case from its results "
-        "at "
-        "the low tier (χ̄, largest slip and activated area of the fault and stage that the "
+        "at the low tier (χ̄, largest slip and activated area of the fault and stage that the "
         "condition names, what it compares, and the flag; by logistic regressions fitted without "
         "the case) and corrected by the predictions' errors in the cases at both tiers. ";
   }
   if (has(TierQuestion::quantile)) {
     text +=
         "A quantile is where the probability of lying below it, predicted by a line through the "
-        "low "
-        "tier's results and corrected by the cases at both tiers, equals its share. ";
+        "low tier's results and corrected by the cases at both tiers, equals its share. ";
   }
   text.pop_back();
   return text;

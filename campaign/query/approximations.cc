@@ -30,8 +30,8 @@ std::string approximation_note(const Store& store, const CampaignInfo& campaign)
   }
   if (found.n_covered_in_part > 0) {
     text += concat(text.empty() ? "" : " ", so_many(found.n_covered_in_part, found.n_results),
-                   " take a flow result that does not cover the compartments, ",
-                   format_number(100 * found.least_coverage, 3), " % of them or more.");
+                   " use a flow result that covers the compartments only in part: at least ",
+                   format_number(100 * found.least_coverage, 3), " % of them.");
   }
   return text;
 }

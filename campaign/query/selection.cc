@@ -261,8 +261,7 @@ void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const st
              " is per metre of strike in the plane-strain cases and a total in the others:"
              " the two cannot be compared"),
       "choose one kind, --where plane_strain or --where \"not plane_strain\", or a metric other "
-      "than "
-      "an area, potency or moment, such as chi_bar or max_slip");
+      "than an area, potency or moment, such as chi_bar or max_slip");
 }
 
 }  // namespace faultsweep

@@ -246,8 +246,7 @@ std::vector<std::string> notes_of(const Ranking& ranking) {
   if (ranking.plane_strain_apart) {
     notes.emplace_back(
         "plane-strain cases are not ranked here, as their areas and moments are per metre of "
-        "strike: "
-        "use --where plane_strain");
+        "strike: use --where plane_strain");
   }
   if (!ranking.approximation.empty()) notes.push_back(ranking.approximation);
   for (const ErrorBar& bar : ranking.error_bars) {

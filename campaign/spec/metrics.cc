@@ -43,8 +43,7 @@ const std::vector<MetricInfo>& other_metrics() {
        "absolute pressure of that region, at activation_depth", true},
       {"activation_change_before", Dimension::pressure, false,
        "that region's last change at which it was found not to slide yet, where that was searched "
-       "for "
-       "within the load step (activation_tolerance)",
+       "for within the load step (activation_tolerance)",
        true},
       {"activation_change_in_fault", Dimension::pressure, false,
        "change of the fluid pressure in the fault, there and then", true},

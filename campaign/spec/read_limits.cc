@@ -43,7 +43,8 @@ long double SpecReader::count_scan() const {
 
 void SpecReader::read_limits(const SceneNames& names, Group& group) {
   if (at("/design/kind") == "groups") {
-    problem("/limits", "limits are searched for in the rows of one design, and groups are several",
+    problem("/limits",
+            "limits are searched for in the rows of one design, but there are several groups",
             "make a campaign of each group");
     return;
   }

@@ -85,7 +85,7 @@ class HowSureTest : public ::testing::Test {
 
 constexpr const char* kNotMeasured =
     "What these cells, the tier and the other modelling choices cost in accuracy was not measured "
-    "for this campaign: faultsweep tradeoff sweep.json measures it";
+    "for this campaign: faultsweep tradeoff sweep.json measures and stores it";
 
 TEST_F(HowSureTest, SaysWhereNothingWasMeasuredAndWhichCommandMeasuresIt) {
   const CampaignInfo sweep = run("sweep", "screening", 10);
