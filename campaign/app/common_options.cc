@@ -11,7 +11,9 @@ void add_campaign(CLI::App* command, StoreArguments& common) {
   add_store(command, common);
 }
 void add_case(CLI::App* command, StoreArguments& common, std::string& name) {
-  command->add_option("case", name, "number, beginning of its identity, or CAMPAIGN/either")
+  command
+      ->add_option("case", name,
+                   "its number or the beginning of its identity; CAMPAIGN/ may precede it")
       ->required();
   command->add_option("--campaign", common.campaign, "default: the newest");
   add_store(command, common);
@@ -68,12 +70,12 @@ void add_build_limits(CLI::App* command, RunOptions& options) {
         options.memory = size;
         options.memory_bytes = static_cast<double>(parse_size("--memory", size));
       },
-      "of each host, for operators that are built or held together: \"12 GB\",\n"
-      "0 = no limit; default: 0.9 of what is available");
+      "per host, for operators built or held at the same time: \"12 GB\",\n"
+      "0 = no limit; default: 0.9 of the memory available");
   command
       ->add_option("--threads", options.threads,
-                   "for building an operator; default: the cores of its host that are idle.\n"
-                   "Results are the same with any number")
+                   "for building an operator; default: the idle cores of its host. Results do\n"
+                   "not depend on it")
       ->check(CLI::Range(1, 1024));
 }
 

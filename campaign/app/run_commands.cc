@@ -112,8 +112,9 @@ void add_running(Program& program, int argc, char** argv) {
   add_workers(slurm_command, request.n_workers,
               "tasks besides the manager's; default: enough for half an hour, at most 15");
   slurm_command->add_option("--nodes", request.nodes, "default 1")->check(CLI::Range(1, 10000));
-  slurm_command->add_option("--time", request.time,
-                            "as for sbatch: 12:00:00; default: twice the predicted time");
+  slurm_command->add_option(
+      "--time", request.time,
+      "as for sbatch: 12:00:00; default: twice the predicted time, plus 10 min");
   slurm_command->add_option("--memory-per-node", request.memory_per_node,
                             "as for sbatch: 64G; default: as predicted");
   slurm_command->add_option("--partition", request.partition, "default: the cluster's");

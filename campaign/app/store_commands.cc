@@ -314,7 +314,7 @@ void add_reading(Program& program) {
       "M0, the pressure margin of inactive cases, and chi");
   add_stage_and_fault(command, a.request.stage, a.request.fault);
   add_where(command, a.request.where);
-  command->add_option("--top", a.request.top, "how many rows; 0 = all")
+  command->add_option("--top", a.request.top, "how many rows (default 20); 0 = all")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--skip", a.request.skip,

@@ -231,7 +231,7 @@ void add_bands(Sheet& s) {
   const FaultSheet& sheet = s.sheet;
   s.page.heading(concat("Safe band of pressures, absolute, at ", depth_text(sheet.datum)));
   if (sheet.bands.empty()) {
-    s.page.paragraph("Not known: no case has a history of this fault to its end.");
+    s.page.paragraph("Not known: no case has a full history of this fault.");
     return;
   }
   s.page.chart(figure::draw(chart_of(s.answer, 0)));

@@ -121,7 +121,7 @@ bool Manager::take_shown_fields() {
   for (const std::string& text : choice.left_out) say(text);
   store_.want_fields(campaign_.id, choice.cases);
   if (choice.cases.empty()) return false;
-  say(concat("all is decided; the fault fields of the cases ranked first follow: ",
+  say(concat("all cases are decided; the fault fields of the cases ranked first follow: ",
              joined(choice.positions, ", ")));
   plan_->go_on_after_failures();
   n_extras_left_ = std::ssize(choice.cases);

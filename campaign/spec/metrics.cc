@@ -18,7 +18,7 @@ const std::vector<MetricInfo>& other_metrics() {
       {"n_episodes", Dimension::number, false,
        "activation episodes of the case: runs of load steps in which a fault slips far enough"},
       {"unexpected", Dimension::number, true,
-       "a fault that slid before slides again after its pressure has recovered (words.md)"},
+       "a fault that slid before slides again after its pressure has recovered (docs/words.md)"},
       {"plane_strain", Dimension::number, true,
        "areas, potency and moments are per metre of strike"},
       {"weakening_resolved", Dimension::number, true,

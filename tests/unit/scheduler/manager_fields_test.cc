@@ -65,8 +65,9 @@ TEST_F(ManagerTest, WritesTheFieldsOfTheCasesShownFirstWhenAllAreDecided) {
   EXPECT_EQ(FakeRunner::fields_folders, folders);
   EXPECT_EQ(info.n_done, 12);
   EXPECT_EQ(info.n_fields_kept, 3);
-  EXPECT_THAT(events(), ::testing::HasSubstr("fields: all is decided; the fault fields of the "
-                                             "cases ranked first follow: 5, 2, 9\n"));
+  EXPECT_THAT(events(),
+              ::testing::HasSubstr("fields: all cases are decided; the fault fields of the "
+                                   "cases ranked first follow: 5, 2, 9\n"));
   EXPECT_TRUE(store.integrity_problems().empty());
 }
 
