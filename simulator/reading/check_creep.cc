@@ -14,7 +14,7 @@ const char* const kAddViscosity =
 
 void check_switch(SceneReader& reader, const Scene& scene) {
   if (scene.numerics.creep != Switch::on || has_viscous_material(scene)) return;
-  reader.problem("/numerics/creep", "nothing in the model is of a material with a viscosity",
+  reader.problem("/numerics/creep", "nothing in the model is made of a material with a viscosity",
                  kAddViscosity);
 }
 
@@ -25,7 +25,7 @@ void check_initial_state(SceneReader& reader, const Scene& scene) {
     reader.problem(at, "the uniform \"tensor\" is the stress of viscous layers too",
                    "remove one of the two");
   } else if (!has_viscous_layer(scene)) {
-    reader.problem(at, "no layer is of a material with a viscosity", kAddViscosity);
+    reader.problem(at, "no layer is made of a material with a viscosity", kAddViscosity);
   }
 }
 
@@ -34,7 +34,7 @@ void check_time_step(SceneReader& reader, const Scene& scene) {
   const std::string at = "/numerics/creep_time_step";
   if (!reader.has(at)) return;
   if (reader.has("/numerics/creep_refinements")) {
-    reader.problem("/numerics/creep_refinements", "has no effect next to \"creep_time_step\"",
+    reader.problem("/numerics/creep_refinements", "has no effect beside \"creep_time_step\"",
                    "remove one of the two");
   }
   if (!reader.sound("/stages")) return;

@@ -69,8 +69,8 @@ void remark_ends(const SceneReader& reader, Scene& scene, std::size_t fault) {
     if (beyond.empty()) continue;
     scene.remarks.push_back(
         {reader.fault_pressure_key(fault, "csv"),
-         concat("does not reach over all of fault ", scene.faults[fault].name, ": from ", beyond,
-                " (", d.name, ") the pressures at its ends are held")});
+         concat("does not cover all of fault ", scene.faults[fault].name, ": from ", beyond, " (",
+                d.name, ") the pressures at its ends are held")});
   }
 }
 
@@ -105,8 +105,8 @@ void remark_added_steps(const SceneReader& reader, Scene& scene, std::size_t fau
        concat("adds ", n_own, " load steps to the ", n_all - n_added,
               " of the stages, at the times between which the pressures of fault ",
               scene.faults[fault].name,
-              " are not linear; a table of fewer times takes fewer, and \"turning_points\": "
-              "\"report\" in /numerics none")});
+              " are not linear; a table with fewer times adds fewer, and \"turning_points\": "
+              "\"report\" in /numerics adds none")});
 }
 
 }  // namespace
@@ -123,9 +123,9 @@ void check_fault_tables(SceneReader& reader, const Scene& scene) {
           d.low() == d.high() ? metres(d.low()) : metres(d.low()) + " to " + metres(d.high());
       reader.problem(pointer,
                      concat(reader.as_given(pointer), " has pressures at ", given, " (", d.name,
-                            "), and fault \"", scene.faults[f].name, "\" reaches from ",
+                            "), but fault \"", scene.faults[f].name, "\" reaches from ",
                             metres(d.fault[0]), " to ", metres(d.fault[1])),
-                     "give the pressures at places on the fault");
+                     "give pressures at places on the fault");
     }
   }
 }

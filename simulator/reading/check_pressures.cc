@@ -160,9 +160,10 @@ void check_given(SceneReader& reader, const Scene& scene, std::size_t fault) {
         return {place.depth, p0 + given_pressure_change(scene, fault, place, time), p0};
       },
       [](double p0) {
-        return p0 <= 0 ? "let it act where there is an initial pressure: its depth_window, or "
-                         "initial_state"
-                       : below_zero_cure(p0) + " there";
+        return p0 <= 0
+                   ? "let it act only where there is an initial pressure (depth_window), or change "
+                     "initial_state"
+                   : below_zero_cure(p0) + " there";
       });
 }
 
@@ -228,8 +229,8 @@ void check_mixed(SceneReader& reader, const Scene& scene, std::size_t fault) {
         return {at.depth, initial + change, initial};
       },
       [](double) {
-        return "take a rule that takes both from one side, as \"mean\", or let the blocks fall "
-               "less";
+        return "choose a rule that takes both from the same side, such as \"mean\", or let the "
+               "pressures of the blocks fall less";
       });
 }
 

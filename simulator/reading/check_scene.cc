@@ -62,7 +62,7 @@ void check_offsets(SceneReader& reader, const FieldGeometry& field) {
     reader.problem(
         concat("/geometry/blocks/", i, has_offset ? "/offset" : ""),
         "the reservoir of \"" + block.name + "\" with its faults reaches from " + metres(top) +
-            " to " + metres(bottom) + " depth, out of the model",
+            " to " + metres(bottom) + " depth, outside the model",
         "keep it between 0 m and " + metres(field.depth) + ": " +
             (has_offset ? "an offset above " + metres(margin - reservoir.top + block.offset) +
                               " and below " +
@@ -83,7 +83,7 @@ void check_own_overshoots(SceneReader& reader, const Scene& scene) {
     const std::string pointer = element("/faults", f) + "/overshoot";
     reader.problem(pointer,
                    "the fault \"" + scene.faults[f].name + "\" reaches from " + metres(range.top) +
-                       " to " + metres(range.bottom) + " depth, out of the model",
+                       " to " + metres(range.bottom) + " depth, outside the model",
                    "keep it between 0 m and " + metres(field.depth) + ": an overshoot below " +
                        metres(most) + ", or a larger depth");
   }
@@ -171,7 +171,7 @@ void check_column(SceneReader& reader, const Scene& scene) {
   if (!reader.sound("/initial_state")) return;
   if (is_meshed(scene) && scene.initial.viscous_layers == ViscousLayers::lithostatic) {
     reader.problem("/initial_state/viscous_layers", "a mesh has no layers to be lithostatic in",
-                   "take \"ratios\"");
+                   "use \"ratios\"");
   }
   if (scene.initial.kind != InitialStressKind::column) return;
   if (is_meshed(scene)) {
@@ -183,7 +183,7 @@ void check_column(SceneReader& reader, const Scene& scene) {
     if (std::abs(scene.box.to[2]) > 0) {
       reader.problem(
           "/initial_state/kind",
-          "a column needs the top of the box at z = 0, it is at " + metres(scene.box.to[2]),
+          "a column needs the top of the box at z = 0, but it is at " + metres(scene.box.to[2]),
           "use \"kind\": \"profile\", or move the box");
     }
     if (std::abs(scene.initial.overpressure) > 0) {
@@ -194,7 +194,7 @@ void check_column(SceneReader& reader, const Scene& scene) {
   for (const Material& material : used_materials(scene)) {
     const std::string at = "/materials/" + pointer_token(material.name);
     if (!reader.has(at + "/density")) {
-      reader.problem(at, "\"density\" is missing, the initial column weighs it",
+      reader.problem(at, "\"density\" is missing: the initial column needs it",
                      "add for example \"density\": \"2400 kg/m3\"");
     }
   }
@@ -214,7 +214,7 @@ void check_contrast(SceneReader& reader, const Scene& scene) {
       at,
       reader.as_given(at) + " is less than 1e-10 of that of \"" + stiffest->name + "\", " +
           reader.as_given("/materials/" + pointer_token(stiffest->name) + "/youngs_modulus"),
-      "bring the two closer: the numbers cannot hold both");
+      "bring the two closer: double precision cannot resolve both");
 }
 
 void check_observation_points(SceneReader& reader, const Scene& scene) {
@@ -246,12 +246,13 @@ void check_turning_points(SceneReader& reader, const Scene& scene) {
   if (n_added <= scene.numerics.max_added_steps) return;
   const auto first = std::ranges::find_if(steps, [](const StepEnd& step) { return step.added; });
   const bool given = reader.has("/numerics/max_added_steps");
-  reader.problem(given ? "/numerics/max_added_steps" : "/stages",
-                 concat("the loads turn at ", n_added, " places between load steps, the first ",
-                        in_unit(first->time, Dimension::time, "year"),
-                        "; steps are added for at most ", scene.numerics.max_added_steps),
-                 "take steps that meet them, raise /numerics/max_added_steps, or skip them with "
-                 "\"turning_points\": \"report\" there");
+  reader.problem(
+      given ? "/numerics/max_added_steps" : "/stages",
+      concat("the loads turn at ", n_added, " times between load steps, first at ",
+             in_unit(first->time, Dimension::time, "year"), "; steps are added for at most ",
+             scene.numerics.max_added_steps),
+      "choose load steps that end there, raise /numerics/max_added_steps, or skip them with "
+      "\"turning_points\": \"report\" in /numerics");
 }
 
 void check_geometry(SceneReader& reader, const Scene& scene) {

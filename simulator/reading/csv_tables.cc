@@ -28,7 +28,7 @@ std::string file_text(const std::string& path, const std::string& name) {
   constexpr std::size_t kMostBytes = 16'000'000;  // 10^5 rows of ten columns
   InputText file = read_input_file(path, kMostBytes);
   const bool relative = !name.empty() && name[0] != '/';
-  if (!file.what.empty() && relative) file.cure += "; it is taken from the folder of the scene";
+  if (!file.what.empty() && relative) file.cure += "; it is looked for in the scene's folder";
   if (!file.what.empty()) throw InputError(path, file.what, file.cure);
   return std::move(file.text);
 }

@@ -15,7 +15,7 @@ namespace faultsim {
 namespace {
 
 constexpr const char* kTableHeaderCure =
-    "head the columns depth [m] (or along_dip [m]), perhaps along_strike [m], then the times: "
+    "name the columns depth [m] (or along_dip [m]), optionally along_strike [m], then the times: "
     "0 year [bar], 1 year [bar]";
 
 class FaultTable {
@@ -62,8 +62,7 @@ class FaultTable {
       return reader_.refuse(table_quote(text) + " is neither a time nor a date", kTableHeaderCure);
     std::vector<double>& times = table().time;
     if (!times.empty() && date.has_value() != result_.has_dates)
-      return reader_.refuse("some columns have dates and some have times",
-                            "keep to one of the two");
+      return reader_.refuse("some columns have dates and some have times", "use one of the two");
     result_.has_dates = date.has_value();
     if (date && !start_) start_ = date;
     const double seconds = date ? *date - *start_ : after.value;
@@ -72,7 +71,7 @@ class FaultTable {
                      "begin with the pressures that the scene starts from");
     } else if (!times.empty() && seconds <= times.back()) {
       reader_.refuse("the time " + text + " does not come after the one before",
-                     "write the times in their order, each once");
+                     "write the times in order, each once");
     }
     times.push_back(seconds);
   }
@@ -86,7 +85,7 @@ class FaultTable {
     const std::pair<double, double> place{values[0], has_strike() ? values[1] : 0};
     values.erase(values.begin(), values.begin() + static_cast<long>(first_time_));
     if (!rows_.try_emplace(place, std::move(values)).second)
-      reader_.refuse("the place is there twice", "give each place one row");
+      reader_.refuse("the place is given twice", "give each place one row");
   }
 
   /// Rows in order of place, as changes since the first time; and the times at which they turn.

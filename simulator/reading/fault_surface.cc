@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3d;
 using horizons::DrawnSurface;
 
-constexpr const char* kStickCure = "head the table stick, x [m], y [m], depth [m]";
+constexpr const char* kStickCure = "name the columns stick, x [m], y [m], depth [m]";
 
 /// Words of a line; tabs of a table that has travelled with its scene are semicolons.
 std::vector<std::string_view> words_of(std::string_view line) {
@@ -68,7 +68,7 @@ class GocadReader {
   GocadReader(std::string_view text, const std::string& given) : given_(given) {
     for (int line = 1; !text.empty(); ++line) read_line(next_table_line(text), line);
     if (header_line_ > 0) refuse_open_header();
-    if (all_.empty()) refuse(first_other_, "is no TSurf", "write the fault as a GOCAD TSurf");
+    if (all_.empty()) refuse(first_other_, "is not a TSurf", "write the fault as a GOCAD TSurf");
   }
   DrawnSurface surface_of(const std::string& fault);
 
@@ -176,7 +176,7 @@ std::optional<int> GocadReader::number_at(const std::vector<std::string_view>& w
     const char* end = words[at].data() + words[at].size();
     if (std::from_chars(words[at].data(), end, number).ptr == end) return number;
   }
-  refuse(line, concat(words[0], " has no whole number in place ", at),
+  refuse(line, concat(words[0], " has no whole number at position ", at),
          "write the numbers of its points");
   return std::nullopt;
 }
@@ -190,7 +190,7 @@ void GocadReader::read_node(const std::vector<std::string_view>& words, int line
     const std::optional<double> value =
         place < words.size() ? parse_number(words[place]) : std::nullopt;
     if (!value)
-      return refuse(line, concat(words[0], " ", *number, " has no three coordinates"),
+      return refuse(line, concat(words[0], " ", *number, " does not have three coordinates"),
                     "write its x, y and z");
     if (!(std::abs(*value) <= kLengthRange.high))
       return refuse(line,
@@ -200,7 +200,7 @@ void GocadReader::read_node(const std::vector<std::string_view>& words, int line
     at[axis] = *value;
   }
   if (!all_.back().nodes.emplace(*number, at).second)
-    refuse(line, concat("point ", *number, " is there already"), "number points apart");
+    refuse(line, concat("point ", *number, " is given twice"), "give each point its own number");
 }
 
 void GocadReader::read_copy(const std::vector<std::string_view>& words, int line) {
@@ -209,10 +209,11 @@ void GocadReader::read_copy(const std::vector<std::string_view>& words, int line
   if (!of) return;
   const auto found = all_.back().nodes.find(*of);
   if (found == all_.back().nodes.end())
-    return refuse(line, concat("there is no point ", *of), "write points before what names them");
+    return refuse(line, concat("there is no point ", *of),
+                  "write points before the lines that use them");
   const Vector3d at = found->second;
   if (!all_.back().nodes.emplace(*number, at).second)
-    refuse(line, concat("point ", *number, " is there already"), "number points apart");
+    refuse(line, concat("point ", *number, " is given twice"), "give each point its own number");
 }
 
 void GocadReader::read_triangle(const std::vector<std::string_view>& words, int line) {
@@ -229,15 +230,15 @@ const GocadSurface& GocadReader::chosen(const std::string& fault) {
   if (all_.size() == 1) return all_[0];
   const auto found = std::ranges::find(all_, fault, &GocadSurface::name);
   if (std::ranges::count(all_, fault, &GocadSurface::name) > 1) {
-    refuse(0, "has several surfaces of the name " + table_quote(fault),
-           "join them in one TSurf, or give each fault its own");
+    refuse(0, "has several surfaces named " + table_quote(fault),
+           "join them into one TSurf, or give each fault its own");
     require_sound();
   }
   if (found != all_.end()) return *found;
   std::string names;
   for (const GocadSurface& one : all_) names += (names.empty() ? "" : ", ") + table_quote(one.name);
-  refuse(0, concat("has ", all_.size(), " surfaces (", names, "), none of them ", fault),
-         "give one of them the fault's name, or a file of its own");
+  refuse(0, concat("has ", all_.size(), " surfaces (", names, "), none of them named ", fault),
+         "give one of them the fault's name, or the fault a file of its own");
   require_sound();
   return all_[0];
 }
@@ -287,9 +288,9 @@ StickColumns stick_columns(TableReader& table) {
     const auto number = static_cast<std::size_t>(std::ranges::find(kNames, name) - kNames.begin());
     const std::size_t place = std::min<std::size_t>(number, 3);
     if (number == kNames.size()) {
-      table.refuse("column " + table_quote(name) + " says nothing of sticks", kStickCure);
+      table.refuse("column " + table_quote(name) + " does not describe sticks", kStickCure);
     } else if (found.at[place]) {
-      table.refuse("column " + table_quote(name) + " says what another one says", kStickCure);
+      table.refuse("column " + table_quote(name) + " repeats another one", kStickCure);
     } else if (number == 0 || table.set_unit(k, Dimension::length, kLengthRange, kStickCure)) {
       found.at[place] = k;
       found.is_depth = found.is_depth || name == "depth";
@@ -312,9 +313,9 @@ class StickReader {
     table_.require_rows("write a line for each point of each stick");
     for (std::size_t s = 0; s < names_.size(); ++s)
       if (made_.sticks[s].size() < 2)
-        table_.refuse_at(0, "the stick " + table_quote(names_[s]) + " has one point",
-                         "give two or more of each");
-    if (names_.size() < 2) table_.refuse_at(0, "has one stick", "give two or more, in order");
+        table_.refuse_at(0, "the stick " + table_quote(names_[s]) + " has only one point",
+                         "give each stick two or more");
+    if (names_.size() < 2) table_.refuse_at(0, "has only one stick", "give two or more, in order");
     table_.require_sound();
     for (std::vector<int>& stick : made_.sticks)
       if (made_.points[stick.front()].z() < made_.points[stick.back()].z())
@@ -334,7 +335,7 @@ class StickReader {
 
 void StickReader::begin(const std::string& name) {
   if (contains(names_, name))
-    table_.refuse("rows of the stick " + table_quote(name) + " stand apart",
+    table_.refuse("the rows of stick " + table_quote(name) + " are not together",
                   "write the rows of a stick one after the other");
   names_.push_back(name);
   made_.sticks.emplace_back();

@@ -14,7 +14,7 @@ void read_field_ends(SceneReader& reader, const std::string& at, const std::stri
     if (y_from || y_to) {
       reader.problem(at + "length",
                      concat("is given beside ", y_from ? "y_from" : "y_to",
-                            ", and says both ends: it is centred on y = 0"),
+                            ", but fixes both ends: it is centred on y = 0"),
                      "remove one of the two");
       return;
     }
@@ -25,12 +25,12 @@ void read_field_ends(SceneReader& reader, const std::string& at, const std::stri
   const double from = y_from.value_or(-half), to = y_to.value_or(half);
   if (to - from < kLeastExtent) {
     const char* key = y_to ? "y_to" : "y_from";
-    reader.problem(
-        at + key,
-        whose + " reaches from y = " + metres(from) + " to " + metres(to) + ", which is no length",
-        y_from && y_to ? std::string("write y_to larger than y_from")
-                       : concat("add ", y_to ? "y_from" : "y_to",
-                                ": without it that end is half of the common length"));
+    reader.problem(at + key,
+                   whose + " reaches from y = " + metres(from) + " to " + metres(to) +
+                       ", which leaves no length",
+                   y_from && y_to ? std::string("write y_to larger than y_from")
+                                  : concat("add ", y_to ? "y_from" : "y_to",
+                                           ": without it that end is at half the common length"));
   }
   if (y_from == -half) y_from.reset();
   if (y_to == half) y_to.reset();

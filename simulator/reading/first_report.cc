@@ -73,7 +73,7 @@ void take_first_report(SceneReader& reader, Scene& scene) {
   };
   if (!wanted || !is_sound()) return;
   if (scene.geometry_kind != GeometryKind::field) {
-    return reader.problem(kFrom, "takes the pressures of the blocks of a field, and there is none",
+    return reader.problem(kFrom, "takes the pressures of the blocks of a field, but there is none",
                           "give \"initial_state\" the pressures of the report");
   }
   refuse_given(reader, scene);
@@ -92,7 +92,7 @@ void take_first_report(SceneReader& reader, Scene& scene) {
   double sum = 0, volume = 0;
   for (std::size_t b = 0; b < scene.field.blocks.size(); ++b) {
     if (mapping.weights[b].empty()) {
-      reader.problem(kFrom, "the flow result covers nothing of " + scene.field.blocks[b].name,
+      reader.problem(kFrom, "the flow result covers no part of " + scene.field.blocks[b].name,
                      "check \"origin\" and \"azimuth\" of the field and its units, or give the "
                      "blocks their \"overpressure\"");
       continue;

@@ -10,7 +10,7 @@
 namespace faultsim {
 namespace {
 
-constexpr const char* kCure = "head the table x [m], y [m], depth [m], or thickness [m] for depth";
+constexpr const char* kCure = "name the columns x [m], y [m], depth [m] (or thickness [m])";
 
 /// Where the columns of a horizon stand: x, y, and depth, z or thickness.
 struct HorizonColumns {
@@ -32,9 +32,9 @@ HorizonColumns find_columns(TableReader& table) {
     const std::string name = table.columns()[k].name;
     const std::size_t coordinate = coordinate_of(name);
     if (coordinate == 3) {
-      table.refuse("column " + table_quote(name) + " says nothing of a horizon", kCure);
+      table.refuse("column " + table_quote(name) + " does not describe a horizon", kCure);
     } else if (found.at[coordinate]) {
-      table.refuse("column " + table_quote(name) + " says what another one says", kCure);
+      table.refuse("column " + table_quote(name) + " repeats another one", kCure);
     } else if (table.set_unit(k, Dimension::length, kLengthRange, kCure)) {
       found.at[coordinate] = k;
       found.is_depth = found.is_depth || name == "depth";
@@ -59,7 +59,7 @@ HorizonTable parse_horizon_csv(const std::string& text, const std::string& given
                z = table.value(*columns.at[2]);
     if (!x || !y || !z) continue;
     if (columns.is_thickness && *z <= 0)
-      table.refuse("a thickness is not above 0", "layers have at least a little of it");
+      table.refuse("a thickness is not above 0", "give every layer some thickness");
     found.points.emplace_back(*x, *y, columns.is_depth ? -*z : *z);
     found.line.push_back(table.line());
   }

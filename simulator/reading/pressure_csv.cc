@@ -34,7 +34,7 @@ class PressureTable {
     if (!reader_.has_header(kPressureHeaderCure)) return;
     result_.has_dates = columns[0].text == "date";
     if (columns.size() < 2 || (!result_.has_dates && columns[0].name != "time"))
-      return reader_.refuse("the first column is not \"time\" or \"date\" with others after it",
+      return reader_.refuse("the first column is not \"time\" or \"date\" followed by others",
                             kPressureHeaderCure);
     if (!result_.has_dates) reader_.set_unit(0, Dimension::time, kTimeRange, kPressureHeaderCure);
     std::map<std::string, std::size_t> seen;
@@ -83,7 +83,7 @@ class PressureTable {
     if (!result_.start) result_.start = seconds;
     if (*seconds < *result_.start) {
       reader_.refuse("the date " + cell + " is before time 0",
-                     "begin the table at the scene's start_date, or move that");
+                     "begin the table at the scene's start_date, or make that earlier");
       return false;
     }
     return next_time(*seconds - *result_.start, "the date " + cell, "write dates that increase");
@@ -93,7 +93,7 @@ class PressureTable {
     if (!reader_.number(0)) return false;
     const std::string cell(reader_.cell(0)), unit = *reader_.columns()[0].unit;
     return next_time(parse_quantity(cell + " " + unit, Dimension::time).value, "time " + cell,
-                     "write times from 0 on that increase");
+                     "write increasing times from 0 on");
   }
 
   bool next_time(double time, const std::string& name, const std::string& cure) {

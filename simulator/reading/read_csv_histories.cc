@@ -50,7 +50,7 @@ class CsvHistories {
         take_column(csv, *column, file, pointer);
       } else if (!csv.columns.empty()) {
         reader_.problem(pointer, "\"" + file + "\" has no column \"" + region + "\"",
-                        "name a column like the compartment");
+                        "give a column the compartment's name");
       }
     }
   }
@@ -119,8 +119,8 @@ class CsvHistories {
     if (start_ || !csv.has_dates) return;
     if (!first_start_) first_start_ = csv.start;
     if (*first_start_ == *csv.start) return;
-    reader_.problem(pointer, file + " begins at another date than the tables before",
-                    "say which date time 0 is: \"start_date\": \"1990-01-31\" in the scene");
+    reader_.problem(pointer, file + " begins at a different date from the tables before",
+                    "say which date is time 0: \"start_date\": \"1990-01-31\" in the scene");
   }
 
   /// A table that ends elsewhere than the stages is right only where the scene says so.

@@ -152,7 +152,7 @@ FaultPressureTable read_profile(SceneReader& reader, const std::string& rule, co
                    "give the depth of the places");
   }
   if (!csv.table.strike.empty() && scene.numerics.half_domain == Switch::on) {
-    reader.problem(at, name + " varies along strike, and half of the domain is modelled",
+    reader.problem(at, name + " varies along strike, but only half of the domain is modelled",
                    "set /numerics/half_domain to \"off\", or leave along_strike out");
   }
   return csv.table;

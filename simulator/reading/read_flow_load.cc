@@ -61,9 +61,9 @@ std::optional<FieldFile> open_field(SceneReader& reader, const FieldKey& key,
   const FieldPlace place = field_place(document.value, document.source, name);
   const std::string path = std::filesystem::absolute(place.path).lexically_normal().string();
   if (const std::string odd = first_unprintable(path); !odd.empty()) {
-    reader.problem(at,
-                   "the file lies in a folder whose name holds \"" + odd + "\": " + printable(path),
-                   "rename the folder");
+    reader.problem(
+        at, "the file lies in a folder whose name contains \"" + odd + "\": " + printable(path),
+        "rename the folder");
     return std::nullopt;
   }
   try {
@@ -100,7 +100,7 @@ void check_end(SceneReader& reader, const std::string& at, const Scene& scene,
 void read_section(SceneReader& reader, const std::string& at, Scene& scene, FlowLoad& load) {
   if (scene.numerics.plane_strain != Switch::on) {
     if (reader.has(at + "/y"))
-      scene.remarks.push_back({at + "/y", "has no effect: it is the section of plane strain"});
+      scene.remarks.push_back({at + "/y", "has no effect: it is for plane strain"});
     return;
   }
   const bool is_box = scene.geometry_kind == GeometryKind::box;
@@ -123,7 +123,7 @@ void read_field(SceneReader& reader, const FieldKey& key, Scene& scene) {
   if (const std::string date = reader.text(at + "/reference"); !date.empty()) {
     const std::optional<int> report = report_at(*file->field, date);
     if (!report) {
-      return reader.problem(at + "/reference", "\"" + date + "\" is the day of no report",
+      return reader.problem(at + "/reference", "there is no report on \"" + date + "\"",
                             "choose one of " + dates_of(*file->field));
     }
     load.reference = *report;

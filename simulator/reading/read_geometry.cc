@@ -115,8 +115,8 @@ void read_surfaces(SceneReader& reader, const std::string& at, const BodyMesh& m
                      "give each surface one condition");
     }
     if (condition.kind == BoundaryKind::roller && !axis_across(*mesh.content, surface)) {
-      reader.problem(place, "a roller on \"" + name + "\", which does not lie across x, y or z",
-                     "take \"fixed\", or \"displacement\" with components");
+      reader.problem(place, "\"" + name + "\" has a roller, but does not lie across x, y or z",
+                     "use \"fixed\", or \"displacement\" with components");
     }
   }
 }

@@ -115,10 +115,11 @@ std::vector<std::string> remarks_of(const horizons::BuiltBody& built) {
         metres(at.x()), ", y ", metres(at.y()), ", z ", metres(at.z())));
   }
   if (built.n_snapped > 0) {
-    remarks.push_back(concat("has ", counted(built.n_snapped, "place", "places"),
-                             " where horizons of both sides of a fault are joined, as they differ "
-                             "by less than 0.12 of a cell (0.03 where the throw is that of "
-                             "points)"));
+    remarks.push_back(
+        concat("has ", counted(built.n_snapped, "place", "places"),
+               " where the horizons on both sides of a fault are joined, as they differ "
+               "by less than 0.12 of a cell (0.03 where the throw is that of "
+               "points)"));
   }
   return remarks;
 }
@@ -186,7 +187,7 @@ void refuse_names_of_sides(SceneReader& reader) {
     const std::string at = element("/faults", i) + "/name", name = reader.text(at);
     if (!named<Side>(name)) continue;
     reader.problem(at, "\"" + name + "\" is the name of a side of the body",
-                   "give the fault another one");
+                   "give the fault another name");
   }
 }
 

@@ -114,7 +114,7 @@ void BodyReader::read_top(const std::string& at, std::size_t layer) {
   const nlohmann::json* top = reader_.find(at);
   if (layer == 0) {
     if (top != nullptr && top->is_object()) {
-      reader_.problem(at, "the first layer ends at the top of the model, which is level",
+      reader_.problem(at, "the first layer begins at the top of the model, which is level",
                       "write its depth, \"0 m\" for the surface");
     }
     body_.top = -reader_.real(at);
@@ -155,16 +155,17 @@ horizons::DepthOverMap BodyReader::hung(const std::string& at, const std::string
                                         const HorizonTable& table) {
   const horizons::ConstantDepth unknown{kNaN};
   const auto refuse = [&](const std::string& what) {
-    reader_.problem(at, name + what,
-                    "give a thickness for each line of the table of the layer above, with its x "
-                    "and y in its order, or write depth [m] for a surface by itself");
+    reader_.problem(
+        at, name + what,
+        "give a thickness for each line of the table of the layer above, with the same x "
+        "and y in the same order, or write depth [m] for a surface of its own");
     return unknown;
   };
   if (above_.empty())
-    return refuse(" has thicknesses, and the top of the layer above is no table of points");
+    return refuse(" has thicknesses, but the top of the layer above is not a table of points");
   if (table.points.size() != above_.size())
     return refuse(concat(" has ", counted(table.points.size(), "thickness", "thicknesses"),
-                         ", and the table of the layer above ",
+                         ", but the table of the layer above has ",
                          counted(above_.size(), "point", "points")));
   horizons::HungDepth below;
   for (std::size_t k = 0; k < above_.size(); ++k) {
@@ -300,8 +301,8 @@ bool BodyReader::refuse_longer(const std::string& pointer, const std::string& fa
       pointer,
       concat("the surface of \"", fault, "\" is longer than the box, which it leaves at ",
              horizons::map_place(*outside)),
-      "write a \"trace\", its line as far as it is to lie in the box: it goes down as "
-      "the surface does; or enlarge the box");
+      "write a \"trace\", its line as far as it is to lie in the box (it then goes down as the "
+      "surface does), or enlarge the box");
   return true;
 }
 
@@ -324,7 +325,7 @@ void BodyReader::read_throw(const std::string& at, LayeredFault& fault) {
   if (!reader_.has(at + "/throw")) {
     for (const char* key : {"/throw_share", "/throw_reach", "/throw_taper"}) {
       if (!reader_.has(at + key)) continue;
-      reader_.problem(at + key, "says how a throw fades, and none is given",
+      reader_.problem(at + key, "says how a throw fades, but none is given",
                       "add \"throw\", or remove it");
     }
     return;
@@ -379,8 +380,8 @@ bool BodyReader::refuse_within(std::size_t fault, const Vector2d& place,
              horizons::map_place(place), " its ", is_top ? "top" : "base", " lies at ",
              metres(-reached[is_top ? 1 : 0]), " depth, the reservoir from ", metres(-reservoir[1]),
              " to ", metres(-reservoir[0])),
-      concat("give a surface that goes on, or write \"", is_top ? "top" : "bottom",
-             "\": it goes on straight to there"));
+      concat("give a surface that goes further, or write \"", is_top ? "top" : "bottom",
+             "\": it then goes straight on to there"));
   return true;
 }
 

@@ -92,14 +92,14 @@ class LoadingReader {
       reader_.problem(at + "until", "\"" + date + "\" is not a date",
                       "write it as year-month-day: 2000-01-31");
     } else if (!start && !reader_.has("/start_date") && !reader_.has("/pressure_field")) {
-      reader_.problem(at + "until", "nothing says which date time 0 is",
+      reader_.problem(at + "until", "nothing says which date is time 0",
                       "add \"start_date\": \"1990-01-31\" to the scene");
     }
     if (!end || !start) return kNaN;
     const double length = *end - *start - start_;
     if (length > 0) return length;
     reader_.problem(at + "until",
-                    concat("the stage begins at ", date_text(*start + start_), ", and ends before"),
+                    concat("the stage ends before it begins, at ", date_text(*start + start_)),
                     "write a later date");
     return kNaN;
   }
@@ -118,7 +118,8 @@ class LoadingReader {
                          reader_.sound("/geometry/regions") && reader_.sound("/geometry/file") &&
                          reader_.sound("/geometry/volumes") && is_body_known(reader_, scene_);
     if (certain && region.empty()) {
-      reader_.problem(pointer, "a pressure region has no empty name", suggest(region, regions_));
+      reader_.problem(pointer, "a pressure region cannot have an empty name",
+                      suggest(region, regions_));
     } else if (certain) {
       reader_.require_known(pointer, region, "pressure region", regions_);
     }

@@ -32,7 +32,7 @@ void apply_tier_switches(SceneReader& reader, Scene& scene) {
     if (numerics.half_domain == Switch::off) {
       reader.problem("/numerics/half_domain",
                      concat("the tier \"", tier->name,
-                            "\" is made for half the domain; all of it does not fit"),
+                            "\" is made for half the domain; the whole domain does not fit"),
                      "remove this line or choose the tier \"standard\"");
     }
     numerics.half_domain = Switch::on;
@@ -120,11 +120,11 @@ void read_mesh(SceneReader& reader, Scene& scene) {
   constexpr double kSmallest = 1e-3;  // m, as of the other sizes; 0 is none
   if (mesh.largest > 0 && mesh.largest < kSmallest) {
     reader.problem("/mesh/largest", reader.as_given("/mesh/largest") + " is below 1 mm",
-                   "write the largest size of a cell, at least 1 mm, or 0 m for no limit");
+                   "write the largest cell size, at least 1 mm, or 0 m for no limit");
   }
   if (mesh.corner > 0 && mesh.corner < kSmallest) {
     reader.problem("/mesh/corner", reader.as_given("/mesh/corner") + " is below 1 mm",
-                   "write a size of at least 1 mm, or 0 m for cells of `dip` all over");
+                   "write a size of at least 1 mm, or 0 m for cells of `dip` everywhere");
   }
   apply_tier_switches(reader, scene);
   default_creep_refinements(reader, scene.numerics);
@@ -163,7 +163,7 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
   for (const char* key : {"vertical_stress", "vertical_stress_gradient", "ratio_across",
                           "ratio_along", "initial_biot"}) {
     if (reader.has(at + key)) {
-      reader.problem(at + key, "has no effect next to \"tensor\"", "remove one of the two");
+      reader.problem(at + key, "has no effect beside \"tensor\"", "remove one of the two");
     }
   }
 }

@@ -42,17 +42,17 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
   if (one.from >= one.to)
     reader.problem(at + "/to", "the range is empty", "write a \"to\" above \"from\"");
   if (one.kind == Kind::youngs_modulus && one.from <= 0)
-    reader.problem(at + "/from", "a Young's modulus is above 0", "write a positive one");
+    reader.problem(at + "/from", "a Young's modulus must be above 0", "write a positive one");
   if (one.kind == Kind::poisson_ratio && (one.from < 0 || one.to > kMostPoisson)) {
     reader.problem(at, "a surface in Poisson's ratio is for 0 to 0.45: towards 0.5 it has a pole",
                    "narrow the range");
   }
   if (one.kind == Kind::dip && (one.from < -kMostDip || one.to > kMostDip))
-    reader.problem(at, "a dip of a field is within 45 deg of vertical", "narrow the range");
+    reader.problem(at, "a dip of a field must be within 45 deg of vertical", "narrow the range");
   if (one.kind == Kind::offset) {
     const Block& block = scene.field.blocks[static_cast<std::size_t>(one.index)];
     if (block.mesh_offset && one.from <= 0 && one.to >= 0) {
-      reader.problem(at, "the range holds 0 m, where the fault's two sides meet at other cells",
+      reader.problem(at, "the range contains 0 m, where other cells of the fault's two sides meet",
                      "remove the block's mesh_offset: the range is then taken in intervals");
     }
   }
@@ -60,7 +60,7 @@ void check_range(SceneReader& reader, const std::string& at, const SurfaceParame
   constexpr double kRoundingOfEnds = 1e-12;  // relative: ends are written with 15 digits
   const double slack = kRoundingOfEnds * std::max(std::abs(one.from), std::abs(one.to));
   if (value < one.from - slack || value > one.to + slack) {
-    reader.problem(at, "the scene's own value lies outside of this range",
+    reader.problem(at, "the scene's own value lies outside this range",
                    "widen the range, or change the value");
   }
 }
@@ -89,7 +89,7 @@ void take_interval(SceneReader& reader, Scene& scene) {
   if (std::ranges::count_if(over, is_offset) > 1) {
     reader.problem("/numerics/surface/over",
                    "the offsets of two blocks cannot be taken in intervals together",
-                   "take one of them, or give each block a mesh_offset");
+                   "use one of them, or give each block a mesh_offset");
     return;
   }
   const auto block = static_cast<std::size_t>(joined->index);
@@ -104,7 +104,7 @@ void take_interval(SceneReader& reader, Scene& scene) {
     const char* why =
         is_next_to_lines ? " is next to one at which lines of the mesh meet" : " is to be exact";
     scene.remarks.push_back({"/numerics/surface", concat("an offset of ", metres(offset), why,
-                                                         ": its operator is no interpolated one")});
+                                                         ": its operator is not interpolated")});
     return;
   }
   joined->from = found->from;
@@ -124,7 +124,7 @@ void read_probes(SceneReader& reader, const std::vector<std::string>& over, Surf
     for (const auto& [pointer, value] : cases[i]) {
       const std::string at = element(root + "/cases", i);
       if (contains(over, pointer)) {
-        reader.problem(at, "the surface is over " + pointer + ", which check points choose",
+        reader.problem(at, "the surface is over " + pointer + ", which the check points choose",
                        "remove it from the case");
       } else if (pointer.starts_with("/numerics/surface")) {
         reader.problem(at, "a case cannot have another surface", "remove " + pointer);
@@ -184,7 +184,7 @@ void read_surface(SceneReader& reader, Scene& scene) {
     const bool twice = std::ranges::any_of(surface.over, [&](const auto& other) {
       return other.kind == one->kind && other.index == one->index;
     });
-    if (twice) reader.problem(at, "the parameter is there twice", "remove one");
+    if (twice) reader.problem(at, "the parameter is given twice", "remove one");
     if (std::isfinite(one->from) && std::isfinite(one->to)) check_range(reader, at, *one, scene);
     surface.over.push_back(*one);
     pointers.push_back(pointer);

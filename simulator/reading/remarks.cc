@@ -111,7 +111,7 @@ class IdleInputs {
     const std::string only = depleted_material();
     const std::string why =
         only.empty() ? "no material has a thermal_expansion"
-                     : "the regions are of \"" + only + "\", which has no thermal_expansion";
+                     : "the regions are made of \"" + only + "\", which has no thermal_expansion";
     idle("/temperature_field", why);
     for (std::size_t i = 0; i < scene_.stages.size(); ++i)
       idle(element("/stages", i) + "/temperature_change", why);
@@ -142,7 +142,7 @@ class IdleInputs {
       const std::string at = element("/geometry/boundary", i);
       const bool is_loaded = acts(condition);
       if (condition.kind == BoundaryKind::stress && is_all(condition.stress, 0)) {
-        idle(at + "/stress", "it is zero, and the face as free as without it");
+        idle(at + "/stress", "it is zero, which leaves the face as free as without it");
       }
       const std::vector<double>& factor = condition.table.factor;
       if (is_all(factor, 0)) {
@@ -300,7 +300,7 @@ class IdleInputs {
     if (!fault.pressure.depth_window) {
       if (is_field_ || !scene_.box.regions.empty()) return "";
       return "on fault " + fault.name +
-             " it acts where a pressure region lies on either side, and there is none: give a "
+             " it acts where a pressure region lies on either side, but there is none: give a "
              "\"depth_window\"";
     }
     const auto [top, base] = depths_of_fault(scene_, f);

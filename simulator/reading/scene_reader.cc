@@ -262,9 +262,8 @@ void SceneReader::table_problems(const std::string& pointer, const std::string& 
 void SceneReader::require_known(const std::string& pointer, const std::string& name,
                                 const std::string& what, const std::vector<std::string>& known) {
   if (name.empty() || contains(known, name)) return;
-  problem(
-      pointer, "there is no " + what + " \"" + name + "\"",
-      problems_.size() < kMostSuggestions ? suggest(name, known) : "write a name that is there");
+  problem(pointer, "there is no " + what + " \"" + name + "\"",
+          problems_.size() < kMostSuggestions ? suggest(name, known) : "write an existing name");
 }
 
 void SceneReader::require_symmetric(const std::string& pointer,

@@ -130,12 +130,13 @@ TEST(FaultPressureTable, ThatMissesItsFaultIsRefused) {
       problems_of(tabled(json::parse(starter_scene("field")),
                          {"depth [m], 0 year [bar], 20 year [bar]", "100, 0, 20", "200, 0, 20"}));
   EXPECT_THAT(text, HasSubstr("/fault_pressure/csv: inj.csv has pressures at 100 m to 200 m "
-                              "(depth), and fault \"F1\" reaches from 1850 m to 2350 m"));
+                              "(depth), but fault \"F1\" reaches from 1850 m to 2350 m"));
   json box = tabled(bare_box(),
                     {"along_dip [m], along_strike [m], 0 year [bar], 10 year [bar]",
                      "-300, 700, 0, 1", "300, 700, 0, 1", "-300, 800, 0, 1", "300, 800, 0, 1"});
-  EXPECT_THAT(problems_of(box), HasSubstr("700 m to 800 m (along strike), and fault \"F1\" "
-                                          "reaches from -300 m to 300 m"));
+  EXPECT_THAT(
+      problems_of(box),
+      HasSubstr("700 m to 800 m (along strike), but fault \"F1\" reaches from -300 m to 300 m"));
 }
 
 TEST(FaultPressureTable, ThatLeavesOutAPartOfItsFaultIsSaid) {
@@ -144,7 +145,7 @@ TEST(FaultPressureTable, ThatLeavesOutAPartOfItsFaultIsSaid) {
                   {"depth [m], 0 year [bar], 10 year [bar]", "300, 0, " + upper, "800, 0, 2"});
   };
   EXPECT_THAT(remarks_of(box("3")),
-              ElementsAre(HasSubstr("/fault_pressure/csv does not reach over all of fault F1: from "
+              ElementsAre(HasSubstr("/fault_pressure/csv does not cover all of fault F1: from "
                                     "100 m to 300 m (depth) the pressures at its ends are held")));
   EXPECT_THAT(remarks_of(box("0")), IsEmpty()) << "nothing is made up";
   EXPECT_THAT(

@@ -154,8 +154,8 @@ TEST(TurningPoints, AreRefusedBeyondTheirLimit) {
     FAIL() << "not refused";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(),
-                ::testing::HasSubstr("/numerics/max_added_steps: the loads turn at 11 places "
-                                     "between load steps, the first 0.75 year; steps are added "
+                ::testing::HasSubstr("/numerics/max_added_steps: the loads turn at 11 times "
+                                     "between load steps, first at 0.75 year; steps are added "
                                      "for at most 10"));
   }
   EXPECT_NO_THROW(varied(document, {{"/numerics/max_added_steps", "11"}}));

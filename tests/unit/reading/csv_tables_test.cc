@@ -74,7 +74,7 @@ TEST_F(CsvTables, MustAgreeOnTheDateOfTimeZero) {
   write("p.csv", "date, west [bar]\n1990-01-01, 0\n1994-01-01, -100\n");
   write("q.csv", "date, east [bar]\n1990-01-02, 0\n1994-01-02, -100\n");
   EXPECT_THAT(refusal({{"/compartments/east/csv", "q.csv"}}),
-              testing::HasSubstr("q.csv begins at another date than the tables before"));
+              testing::HasSubstr("q.csv begins at a different date from the tables before"));
   EXPECT_EQ(scene({{"/compartments/east/csv", "q.csv"}, {"/start_date", "1990-01-01"}})
                 .pressure[1]
                 .time[0],

@@ -73,7 +73,7 @@ TEST(FaultPressureCsv, IsRefusedWithItsLine) {
   EXPECT_THAT(refusal(header + "3000, 1\n"), HasSubstr("pf.csv:2: has 2 values for 3"));
   EXPECT_THAT(refusal(header + "3000, 1, nan\n"),
               HasSubstr("\"nan\" in column 3 \"1 year\" is not a number"));
-  EXPECT_THAT(refusal(header + "3000, 1, 2\n3000, 1, 3\n"), HasSubstr("there twice"));
+  EXPECT_THAT(refusal(header + "3000, 1, 2\n3000, 1, 3\n"), HasSubstr("the place is given twice"));
   EXPECT_THAT(refusal("depth [m], along_strike [m], 0 year [bar], 1 year [bar]\n"
                       "1, 1, 0, 0\n1, 2, 0, 0\n2, 1, 0, 0\n"),
               HasSubstr("3 places for 2 values of depth and 2"));

@@ -96,12 +96,13 @@ TEST(FaultSurface, OfSeveralTheOneOfTheFaultsNameIsTaken) {
   const std::string both = kSurface + changed(other, "0 -100 1500", "7 -100 1500");
   EXPECT_EQ(parse_fault_surface(both, "all.ts", "F").points[0].x(), 7);
   EXPECT_EQ(parse_fault_surface(both, "all.ts", "Main fault").points[0].x(), 0);
-  EXPECT_THAT(said(other + other), HasSubstr("has several surfaces of the name \"F\"; join them"));
+  EXPECT_THAT(said(other + other), HasSubstr("has several surfaces named \"F\"; join them"));
   try {
     parse_fault_surface(both, "all.ts", "G");
     ADD_FAILURE() << "there is no G";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("has 2 surfaces (\"Main fault\", \"F\"), none of them G"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("has 2 surfaces (\"Main fault\", \"F\"), none of them named G"));
   }
 }
 
@@ -113,16 +114,16 @@ TEST(FaultSurface, TabsThatTravelledAreSemicolons) {
 }
 
 TEST(FaultSurface, AllThatIsWrongWithATSurfIsSaidByLine) {
-  EXPECT_EQ(said("GOCAD PLine 1\n"), "1: is no TSurf; write the fault as a GOCAD TSurf\n");
+  EXPECT_EQ(said("GOCAD PLine 1\n"), "1: is not a TSurf; write the fault as a GOCAD TSurf\n");
   std::string bad = changed(kSurface, "PVRTX 2 0 100 1500", "PVRTX 2 0 east 1500");
   bad = changed(bad, "ATOM 4 2", "ATOM 4 9");
   bad = changed(bad, "VRTX 5 50", "VRTX 3 50");
   bad = changed(bad, "TRGL 4 6 5", "TRGL 4 6 five");
   EXPECT_EQ(said(bad),
-            "16: PVRTX 2 has no three coordinates; write its x, y and z\n"
-            "20: there is no point 9; write points before what names them\n"
-            "21: point 3 is there already; number points apart\n"
-            "23: TRGL has no whole number in place 3; write the numbers of its points\n");
+            "16: PVRTX 2 does not have three coordinates; write its x, y and z\n"
+            "20: there is no point 9; write points before the lines that use them\n"
+            "21: point 3 is given twice; give each point its own number\n"
+            "23: TRGL has no whole number at position 3; write the numbers of its points\n");
   EXPECT_EQ(said(changed(kSurface, "TRGL 1 2 3", "TRGL 1 2 8")),
             "18: there is no point 8; write its VRTX\n");
   std::string bare = changed(kSurface, "TRGL 1 2 3\n", "");
@@ -140,7 +141,7 @@ TEST(FaultSurface, WhatStandsAroundATSurfIsNoPartOfIt) {
     ASSERT_EQ(surface.points.size(), 4u) << text;
     EXPECT_EQ(surface.points[0], Vector3d(0, -100, -1500)) << text;
   }
-  EXPECT_EQ(said("# exported\n" + line), "2: is no TSurf; write the fault as a GOCAD TSurf\n");
+  EXPECT_EQ(said("# exported\n" + line), "2: is not a TSurf; write the fault as a GOCAD TSurf\n");
 }
 
 TEST(FaultSurface, AHeaderIsClosedAndPointsAreThereOnceWithinReach) {
@@ -150,11 +151,11 @@ TEST(FaultSurface, AHeaderIsClosedAndPointsAreThereOnceWithinReach) {
             "2: the HEADER is not closed; end it with }\n")
       << "to the end of the file";
   EXPECT_EQ(said(changed(kSurface, "ATOM 4 2", "ATOM 3 2")),
-            "20: point 3 is there already; number points apart\n");
+            "20: point 3 is given twice; give each point its own number\n");
   EXPECT_EQ(said(changed(kSurface, "PVRTX 2 0 100 1500", "PVRTX 2 0 1e9 1500")),
             "16: PVRTX 2: \"1e9\" is beyond -10000 km to 10000 km; write coordinates in m or ft, "
             "as AXIS_UNIT says\n"
-            "20: there is no point 2; write points before what names them\n");
+            "20: there is no point 2; write points before the lines that use them\n");
 }
 
 constexpr const char* kSticks = R"(# picked in depth
@@ -178,19 +179,21 @@ TEST(FaultSurface, ReadsSticks) {
 }
 
 TEST(FaultSurface, AllThatIsWrongWithSticksIsSaidByLine) {
-  EXPECT_THAT(said(changed(kSticks, "depth [m]", "time [m]")),
-              HasSubstr("2: column \"time\" says nothing of sticks; head the table stick, x [m], y "
-                        "[m], depth [m]"));
+  EXPECT_THAT(
+      said(changed(kSticks, "depth [m]", "time [m]")),
+      HasSubstr("2: column \"time\" does not describe sticks; name the columns stick, x [m], y "
+                "[m], depth [m]"));
   EXPECT_THAT(said(changed(kSticks, ", depth [m]", "")), HasSubstr("2: a column is missing"));
   EXPECT_THAT(said(changed(kSticks, "A, 100, -1, 2500", "A, 100, -1, 1900")),
               HasSubstr("5: the stick \"A\" turns back in depth"));
   EXPECT_THAT(said(changed(kSticks, "A, 40, -1, 2000", "A, 40, -1, 1500")),
               HasSubstr("4: the stick \"A\" has two points at one depth"));
   EXPECT_THAT(said(std::string(kSticks) + "A, 1, 1, 1\n"),
-              HasSubstr("8: rows of the stick \"A\" stand apart"));
+              HasSubstr("8: the rows of stick \"A\" are not together"));
   EXPECT_THAT(said(std::string(kSticks) + "C, 1, 1, 1\n"),
-              HasSubstr("the stick \"C\" has one point"));
-  EXPECT_THAT(said("stick,x [m],y [m],depth [m]\nA,0,0,0\nA,0,0,9\n"), HasSubstr("has one stick"));
+              HasSubstr("the stick \"C\" has only one point"));
+  EXPECT_THAT(said("stick,x [m],y [m],depth [m]\nA,0,0,0\nA,0,0,9\n"),
+              HasSubstr("has only one stick"));
 }
 
 TEST(FaultSurface, NonsenseIsReadOrRefused) {

@@ -87,7 +87,7 @@ TEST(FieldEnds, OfFaultsAreRefusedWithPlaceAndCure) {
   EXPECT_EQ(pointer({{"/faults/2/y_to", "10.1 km"}}), "/faults/2/y_to");
   EXPECT_EQ(pointer({{"/faults/2/y_from", "1200 m"}}), "/faults/2/y_from");
   EXPECT_THAT(problems_with({{"/faults/2/y_from", "1200 m"}})[0].cure,
-              testing::HasSubstr("add y_to: without it that end is half of the common length"));
+              testing::HasSubstr("add y_to: without it that end is at half the common length"));
   EXPECT_EQ(pointer({{"/faults/2/y_from", "0 m"}, {"/faults/2/length", "1 km"}}),
             "/faults/2/length");
   EXPECT_EQ(pointer({{"/faults/2/overshoot", "2.9 km"}}), "/faults/2/overshoot")

@@ -94,7 +94,7 @@ TEST_F(FlowLoads, CountFromTheirReferenceOrTheStartOfTheScene) {
           HasSubstr("/start_date: time 0, 1990-06-01, lies after the reference of pressure_field"),
           HasSubstr("1990-01-01")));
   EXPECT_THAT(refusal({{"/pressure_field/reference", "1990-06-01"}}),
-              AllOf(HasSubstr("is the day of no report"), HasSubstr("1990-01-01, 1991-01-01")));
+              AllOf(HasSubstr("there is no report on"), HasSubstr("1990-01-01, 1991-01-01")));
 }
 
 TEST_F(FlowLoads, EndWithTheStagesOrTheSceneSaysWhatIsMeant) {
@@ -144,7 +144,7 @@ TEST_F(FlowLoads, AreTakenAtASectionInPlaneStrain) {
   EXPECT_EQ(idle.pressure_field.y, 0);
   ASSERT_FALSE(idle.remarks.empty());
   EXPECT_EQ(remark_text(idle.remarks[0]),
-            "/pressure_field/y has no effect: it is the section of plane strain");
+            "/pressure_field/y has no effect: it is for plane strain");
 }
 
 /// Cells over both blocks, of which the west one has two: 300 and 320 bar over halves of its
@@ -192,7 +192,7 @@ TEST_F(FlowLoads, GiveNoInitialPressuresThatAreGiven) {
   write("p.csv", kCells +
                      ", 1990-01-01 [bar], 1994-01-01 [bar]\n-1500, 0, 2100, 3000, 9000, 900, "
                      "300, 200\n");
-  EXPECT_THAT(refusal(from_report), HasSubstr("the flow result covers nothing of east"));
+  EXPECT_THAT(refusal(from_report), HasSubstr("the flow result covers no part of east"));
   document_.value.erase("pressure_field");
   document_.value["start_date"] = "1990-01-01";
   EXPECT_THAT(refusal(from_report),
@@ -253,7 +253,7 @@ TEST_F(FlowLoads, OfTemperatureAreIdleInRockThatDoesNotExpand) {
     return all;
   };
   const std::string idle =
-      "/temperature_field has no effect: the regions are of \"reservoir\", which has no "
+      "/temperature_field has no effect: the regions are made of \"reservoir\", which has no "
       "thermal_expansion";
   EXPECT_THAT(said({}), HasSubstr(idle));
   EXPECT_THAT(said({{"/materials/reservoir/thermal_expansion", "1e-5 1/K"}}),
@@ -300,16 +300,17 @@ TEST_F(FlowLoads, AreRefusedInAFolderThatNoMessageCanShow) {
   embed_tables(document_);
   EXPECT_FALSE(document_.value.contains("fields"));
   EXPECT_THAT(refusal(),
-              AllOf(HasSubstr("/pressure_field/file: the file lies in a folder whose name holds "
+              AllOf(HasSubstr("/pressure_field/file: the file lies in a folder whose name contains "
                               "\"\\u000a\""),
                     HasSubstr("; rename the folder")));
 }
 
 TEST_F(FlowLoads, AreWhereStagesMayEndAtDates) {
   document_.value.erase("pressure_field");
-  EXPECT_THAT(refusal(), HasSubstr("nothing says which date time 0 is"));
+  EXPECT_THAT(refusal(), HasSubstr("nothing says which date is time 0"));
   EXPECT_EQ(scene({{"/start_date", "1993-01-01"}}).stages[0].duration, 365 * kDay);
-  EXPECT_THAT(refusal({{"/start_date", "1995-01-01"}}), HasSubstr("and ends before"));
+  EXPECT_THAT(refusal({{"/start_date", "1995-01-01"}}),
+              HasSubstr("the stage ends before it begins"));
   EXPECT_THAT(refusal({{"/start_date", "1993-01-01"}, {"/stages/0/duration", "1 year"}}),
               HasSubstr("the stage has a duration too"));
 }

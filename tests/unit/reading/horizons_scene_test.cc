@@ -325,9 +325,11 @@ TEST_F(HorizonsScene, ATableIsAHorizon) {
   std::filesystem::remove(scratch_.path() / "top.csv");
   EXPECT_NEAR(read_scene(travelled).box.regions[0].to[2], -1900, 1e-6);
   std::ofstream(scratch_.path() / "top.csv") << "x [m], y [m], height [m]\n0, 0, 1\n";
-  EXPECT_THAT(said(table), HasSubstr("/geometry/layers/1/top/csv: top.csv line 1: column "
-                                     "\"height\" says nothing of a horizon; head the table x "
-                                     "[m], y [m], depth [m]"));
+  EXPECT_THAT(
+      said(table),
+      HasSubstr(
+          "/geometry/layers/1/top/csv: top.csv line 1: column "
+          "\"height\" does not describe a horizon; name the columns x [m], y [m], depth [m]"));
 }
 
 TEST_F(HorizonsScene, ATableOfThicknessesHangsFromTheOneAbove) {
@@ -350,8 +352,8 @@ TEST_F(HorizonsScene, ATableOfThicknessesHangsFromTheOneAbove) {
   EXPECT_NEAR(scene.box.regions[0].from[2], -1980, 1e-6);
   const std::string at = "/geometry/layers/2/top/csv: base.csv";
   thicknesses("");
-  EXPECT_THAT(said(tables), HasSubstr(at + " has 3 thicknesses, and the table of the layer above 4"
-                                           " points; give a thickness for each line"));
+  EXPECT_THAT(said(tables), HasSubstr(at + " has 3 thicknesses, but the table of the layer above "
+                                           "has 4 points; give a thickness for each line"));
   thicknesses("2000, 1999, 80\n");
   EXPECT_THAT(said(tables),
               HasSubstr(at + " line 5: x 2000, y 1999 m is not the place of the "
@@ -360,7 +362,7 @@ TEST_F(HorizonsScene, ATableOfThicknessesHangsFromTheOneAbove) {
   EXPECT_THAT(said(tables), HasSubstr(at + " line 5: a thickness is not above 0"));
   thicknesses(places[3] + "80\n");
   EXPECT_THAT(said({tables[1]}),
-              HasSubstr(at + " has thicknesses, and the top of the layer above is no table"));
+              HasSubstr(at + " has thicknesses, but the top of the layer above is not a table"));
 }
 
 /// Growth is a factor from one cell to the next: 1 keeps their size.
@@ -379,7 +381,7 @@ TEST_F(HorizonsScene, EveryProblemOfKeysIsSaidAtOnce) {
                   {"/faults/0/length", "2 km"},
                   {"/mesh/dip", "20 m"},
                   {"/tier", "standard"}}),
-            "/geometry/layers/0/top: the first layer ends at the top of the model, which is "
+            "/geometry/layers/0/top: the first layer begins at the top of the model, which is "
             "level; write its depth, \"0 m\" for the surface\n"
             "/geometry/layers/1/material: there is no material \"granite\"; write one of "
             "\"lime\", \"sand\", \"shale\"\n"

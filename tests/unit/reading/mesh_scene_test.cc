@@ -103,7 +103,7 @@ TEST_F(MeshScene, WhatNeedsLayersIsRefused) {
       HasSubstr("/initial_state/kind: a mesh has no layers that a column could weigh; use "
                 "\"kind\": \"profile\" or \"tensor\""));
   EXPECT_THAT(said({{"/initial_state/viscous_layers", "lithostatic"}}),
-              HasSubstr("a mesh has no layers to be lithostatic in; take \"ratios\""));
+              HasSubstr("a mesh has no layers to be lithostatic in; use \"ratios\""));
 }
 
 TEST_F(MeshScene, AVolumeWithoutMaterialAndARollerAcrossNothingAreRefused) {
@@ -114,8 +114,8 @@ TEST_F(MeshScene, AVolumeWithoutMaterialAndARollerAcrossNothingAreRefused) {
   for (Eigen::Vector3d& x : body.nodes) x.x() += 0.1 * x.z();
   test::write_mesh_scene(folder_, body);
   EXPECT_THAT(said({}),
-              HasSubstr("/geometry/boundary/0/surfaces/0: a roller on \"x-\", which does not "
-                        "lie across x, y or z; take \"fixed\", or \"displacement\" with "
+              HasSubstr("/geometry/boundary/0/surfaces/0: \"x-\" has a roller, but does not lie "
+                        "across x, y or z; use \"fixed\", or \"displacement\" with "
                         "components"));
 }
 

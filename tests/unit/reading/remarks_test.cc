@@ -67,7 +67,7 @@ TEST(Remarks, NameAPrescribedPressureThatReachesNoFault) {
                               {"/fault_pressure/prescribed", "20 bar"}};
   expect_one(alone, prescribed,
              "/fault_pressure/prescribed has no effect: on fault F1 it acts where a pressure "
-             "region lies on either side, and there is none");
+             "region lies on either side, but there is none");
   Changes window = prescribed;
   window.emplace_back("/fault_pressure/depth_window", R"(["1000 m", "1500 m"])");
   expect_one(alone, window,
@@ -103,7 +103,7 @@ TEST(Remarks, TakeCoolingAsALoad) {
               testing::IsSupersetOf(
                   {testing::StartsWith("/materials/salt/thermal_expansion has no effect"),
                    testing::StartsWith("/stages/0/temperature_change has no effect: the regions "
-                                       "are of \"reservoir\", which has no")}));
+                                       "are made of \"reservoir\", which has no")}));
 }
 
 TEST(Remarks, NameWhatOtherInputMakesIdle) {

@@ -386,7 +386,7 @@ TEST(SurfaceCase, NamesProbingCasesThatCannotBe) {
   };
   EXPECT_THAT(refusal_of(with(R"({"frction": 1})")), HasSubstr("no place for frction"));
   EXPECT_THAT(refusal_of(with(R"({"salt_stiffness": "30 GPa"})")),
-              HasSubstr("check points choose"));
+              HasSubstr("the check points choose"));
   EXPECT_THAT(refusal_of(with("3")), HasSubstr("/numerics/surface/probes/cases/0"));
   Simulation simulation;
   JsonDocument document = field(with(R"({"friction_angle": "12 m"})"));
