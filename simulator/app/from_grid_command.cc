@@ -74,7 +74,7 @@ class FromGrid {
     if (!parsed.ok) problems_.push_back({option, 0, parsed.what, parsed.cure});
     if (parsed.ok && parsed.value <= 0)
       problems_.push_back(
-          {option, 0, "\"" + text + "\" is not above 0", "write a length, \"20 m\""});
+          {option, 0, "\"" + text + "\" is not above 0", "write a length such as \"20 m\""});
     return parsed.ok ? std::optional(parsed.value) : std::nullopt;
   }
 
@@ -126,23 +126,25 @@ class FromGrid {
       if (given.empty()) continue;
       std::error_code error;
       if (!fs::is_regular_file(given, error))
-        problems_.push_back({option, 0, given.string() + ": there is no such file", "name a file"});
+        problems_.push_back(
+            {option, 0, given.string() + ": there is no such file", "name an existing file"});
       fs::path beside = files_.grid;
       beside.replace_extension(ending.empty() ? given.extension().string() : ending);
       if (fs::weakly_canonical(given, error) != fs::weakly_canonical(beside, error))
         problems_.push_back(
-            {option, 0, given.string() + " is not beside the grid under its name",
+            {option, 0, given.string() + " is not beside the grid under the grid's name",
              "put it there as " + beside.string() + ": scenes find files of a case by their name"});
     }
     if (!arguments_.restart.empty()) files_.restarts = eclipse_files(arguments_.restart).restarts;
     if (arguments_.output.extension() != ".json")
-      problems_.push_back({"-o", 0, "\"" + arguments_.output.string() + "\" is no name of a scene",
+      problems_.push_back({"-o", 0,
+                           "\"" + arguments_.output.string() + "\" is not the name of a scene",
                            "let it end in .json"});
     for (const std::string& name : {options_.stem, options_.source, options_.field_file}) {
       const std::string odd = first_unprintable(name);
       if (odd.empty()) continue;
-      problems_.push_back(
-          {"", 0, "the name \"" + printable(name) + "\" holds \"" + odd + "\"", "rename the file"});
+      problems_.push_back({"", 0, "the name \"" + printable(name) + "\" contains \"" + odd + "\"",
+                           "rename the file"});
     }
   }
 
@@ -159,7 +161,7 @@ class FromGrid {
       std::error_code error;
       if (!arguments_.force && fs::exists(target, error))
         problems_.push_back({"-o", 0, target.string() + " exists already",
-                             "choose another name, or --force to replace what is there"});
+                             "choose another name, or give --force to replace what is there"});
     }
     if (!problems_.empty()) throw InputError("faultsim init from-grid", problems_);
     std::vector<fs::path> inputs = files_.restarts;
@@ -198,10 +200,9 @@ class FromGrid {
       LoadedScene loaded = load_scene(read_scene_file(arguments_.output.string(), {}));
       check_geometry(loaded);
     } catch (const InputError& error) {
-      std::cerr
-          << "warning: as it stands validate refuses what was written; the keys that are named, "
-             "or options of init from-grid, change it\n"
-          << error.what() << "\n";
+      std::cerr << "warning: validate refuses the scene as it stands; change the keys named below, "
+                   "or the options of init from-grid\n"
+                << error.what() << "\n";
     }
   }
 
@@ -220,7 +221,7 @@ void add_grid_files(CLI::App* command, FromGridArguments& a) {
                       "CASE.UNRST or CASE.X0001 (default: those beside the grid)");
   command->add_option("-o,--output", a.output, "the scene; its tables are written beside it")
       ->required();
-  command->add_flag("--force", a.force, "replace files that are there");
+  command->add_flag("--force", a.force, "replace existing files");
   command->add_option("--layers", a.layers,
                       "CSV of rock: name, top [m], density [kg/m3], youngs_modulus [GPa],\n"
                       "poisson_ratio, from the surface down; one is called reservoir");
@@ -230,7 +231,7 @@ void add_grid_files(CLI::App* command, FromGridArguments& a) {
 void add_sizes(CLI::App* command, FromGridArguments& a) {
   command
       ->add_option("--every-layer", a.every_layer,
-                   "also the top of every so many layers of the grid (default: none)")
+                   "also take the top of every N-th layer of the grid (default: none)")
       ->check(CLI::Range(0, 10000));
   command->add_option("--least-layer", a.least_layer,
                       "thickness of the model's layers (default: a fifth of a cell at faults,\n"
@@ -238,7 +239,7 @@ void add_sizes(CLI::App* command, FromGridArguments& a) {
   command->add_option("--overshoot", a.overshoot,
                       "of faults above and below the reservoir (default \"150 m\")");
   command->add_option("--margin", a.margin,
-                      "beside the active map (default: twice the depth, 5 km at least)");
+                      "beside the active map (default: twice the depth, at least 5 km)");
   command->add_option("--base", a.base, "depth of the model (default: twice the reservoir's)");
   command->add_option("--strike", a.strike,
                       "size of cells at faults (default: half the grid's, or by --tetrahedra)");
@@ -249,20 +250,23 @@ void add_sizes(CLI::App* command, FromGridArguments& a) {
 /// What of the grid is a fault, and what a compartment.
 void add_recognition(CLI::App* command, FromGridArguments& a) {
   command->add_option("--least-offset", a.least_offset,
-                      "smaller steps between columns are no fault (default \"20 ft\")");
-  command->add_option("--fewest-edges", a.fewest_edges, "of the grid, of a fault (default 3)")
+                      "smaller steps between columns are not a fault (default \"20 ft\")");
+  command
+      ->add_option("--fewest-edges", a.fewest_edges,
+                   "least number of the grid's edges in a fault (default 3)")
       ->check(CLI::Range(1, 1000));
   command
       ->add_option("--straightening", a.straightening,
-                   "cells that traces may leave the grid's edges (default 0.5)")
+                   "how far traces may leave the grid's edges, in cells (default 0.5)")
       ->check(CLI::Range(0.01, 10.0));
   command->add_option("--reference-depth", a.reference_depth,
                       "where traces are drawn (default: the reservoir's top beside faults)");
   command->add_flag("--faults-by-connections", a.faults_by_connections,
                     "non-neighbour connections make a fault at smaller steps");
-  command->add_flag("--no-bridges", a.no_bridges, "smaller steps between two tips join nothing");
+  command->add_flag("--no-bridges", a.no_bridges,
+                    "do not join two tips by smaller steps between them");
   command->add_flag("--extend-faults", a.extend_faults,
-                    "compartments are parted beyond tips, on to the next fault or edge");
+                    "separate compartments beyond tips, as far as the next fault or edge");
   command
       ->add_option("--compartments", a.compartments,
                    "what bounds them: faults (default), EQLNUM, FIPNUM")
@@ -276,9 +280,9 @@ ExitCode init_from_grid_command(const FromGridArguments& arguments) {
 }
 
 void add_from_grid(Program& program, CLI::App* init) {
-  auto [command, a] =
-      program.add("from-grid", "a scene of a flow grid: horizons, faults, compartments, pressures",
-                  init_from_grid_command, init);
+  auto [command, a] = program.add(
+      "from-grid", "a scene from a flow grid: horizons, faults, compartments, pressures",
+      init_from_grid_command, init);
   add_grid_files(command, a);
   add_sizes(command, a);
   add_recognition(command, a);

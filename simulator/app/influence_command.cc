@@ -44,7 +44,7 @@ LoadedScene elastic_and_exact(LoadedScene loaded, RunContext& context) {
   const bool is_surface = loaded.scene.numerics.surface.wanted();
   if (is_surface) context.note("influences of the exact operator at the scene's own parameters");
   if (loaded.plan.creep.active)
-    context.note("influences on elastic rock: what creep relaxes afterwards is not in them");
+    context.note("influences on elastic rock: they do not include what creep relaxes afterwards");
   if (!is_surface && !loaded.plan.creep.active) return loaded;
   loaded.scene.numerics.surface = {};
   loaded.scene.numerics.creep = Switch::off;

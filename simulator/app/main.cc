@@ -17,7 +17,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  faultsim init field my-field.json          write a starter scene\n"
     "  faultsim init from-grid FIELD.EGRID -o field.json\n"
-    "                                             a scene of your own flow grid\n"
+    "                                             a scene from your own flow grid\n"
     "  faultsim plan my-field.json                what will be modelled, unknowns, memory, time\n"
     "  faultsim run my-field.json -o out          run it: table, result.json, faults.xmf\n"
     "  faultsim run my-field.json --tier screening --set friction_angle=\"20 deg\"\n"

@@ -216,7 +216,7 @@ void Run::close(const CaseResult& result) {
   if (finished) {
     std::cerr << "results in " << folder_.string() << "/ (result.json, faults.xmf for ParaView)\n";
   } else {
-    std::cerr << "interrupted: what was reached is in " << output_->path().string() << "/\n";
+    std::cerr << "interrupted: results so far are in " << output_->path().string() << "/\n";
   }
 }
 
@@ -284,7 +284,7 @@ void add_run(Program& program) {
   command
       ->add_option("--path", a.path,
                    "condensed (default); coupled: no operator, both sides of the faults and\n"
-                   "multipliers; automatic: condensed where it fits into memory")
+                   "multipliers; automatic: condensed if it fits in memory")
       ->check(CLI::IsMember({"condensed", "coupled", "automatic"}));
   command->add_option("--leading", a.leading,
                       "coupled path, for K + E: exact,fsai,ic,ilu,amg,amg-u (default amg-u)");

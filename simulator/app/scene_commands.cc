@@ -195,7 +195,7 @@ ExitCode mesh_command(const MeshArguments& arguments) {
 
 void add_init(Program& program) {
   auto [command, a] =
-      program.add("init", "write a starter scene, or one of a flow grid", init_command);
+      program.add("init", "write a starter scene, or one from a flow grid", init_command);
   command->add_option("kind", a.kind, "field or box")->check(CLI::IsMember({"field", "box"}));
   command->add_option("file", a.file, "where to write it (default KIND.json)");
   command->footer(

@@ -55,11 +55,11 @@ std::string events_text(const CaseResult& result) {
                       e.step, e.fault.c_str(), pressures_text(e.pressures, e.depth).c_str(),
                       e.nucleation_length, e.max_slip * 1e3, e.moment, moment_unit(result));
     if (e.magnitude) text += formatted(", Mw %.1f", *e.magnitude);
-    if (!e.resolved) text += ", NOT RESOLVED: its size is the mesh's";
+    if (!e.resolved) text += ", NOT RESOLVED: its size depends on the mesh";
     if (!e.evidence_holds) text += ", EVIDENCE DOES NOT HOLD";
     text += "\n";
   }
-  if (result.events.size() > kShown) text += "  the rest is in result.json\n";
+  if (result.events.size() > kShown) text += "  the rest are in result.json\n";
   return text;
 }
 

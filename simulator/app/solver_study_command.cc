@@ -76,7 +76,7 @@ std::vector<Kind> kinds_of(const std::vector<std::string>& names, const char* op
       kinds.push_back(*kind);
     } else {
       problems.push_back({"", 0, concat(option, " ", name, " is not known"),
-                          "choose of all, " + joined(words(Kind()), ", ")});
+                          "choose from all, " + joined(words(Kind()), ", ")});
     }
   }
   return kinds;
@@ -237,7 +237,8 @@ ExitCode solver_study_command(const SolverStudyArguments& arguments) {
 /// What is solved.
 void add_systems(CLI::App* command, SolverStudyArguments& a) {
   CLI::Option* scene = command->add_option(
-      "--scene", a.scene.file, "a scene's own body instead: its mesh, materials and holds");
+      "--scene", a.scene.file,
+      "the body of a scene instead: its mesh, materials and boundary conditions");
   add_changes(command, a.scene);
   command->get_option("--set")->needs(scene);
   command->get_option("--tier")->needs(scene);
@@ -248,7 +249,7 @@ void add_systems(CLI::App* command, SolverStudyArguments& a) {
       ->excludes(scene);
   command
       ->add_option("--stage", a.stages,
-                   "how nodes stand, of stick,slip,open or all: a history (default stick)")
+                   "states of the nodes: stick,slip,open, or all: a history (default stick)")
       ->delimiter(',');
   command
       ->add_option("--h", a.cell_sizes,
@@ -288,7 +289,7 @@ void add_solver_study(Program& program) {
   add_systems(command, a);
   add_solvers(command, a);
   command->add_option("--export", a.export_to,
-                      "write the systems as PETSc's files into a folder, solve nothing");
+                      "write the systems as PETSc files into a folder, and solve nothing");
   add_json(command, a.json);
   command->footer(
       "Examples:\n"

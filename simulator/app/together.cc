@@ -44,7 +44,7 @@ void require_started_alone(const char* command) {
   if (started_with() == 1) return;
   if (started_as() > 0) Silence();  // for good: its end puts nothing back
   throw InputError(concat("faultsim ", command),
-                   concat("it was started as ", started_with(), " processes and runs in one"),
+                   concat("it was started as ", started_with(), " processes but runs in one"),
                    "start it without mpirun; only run --path coupled shares its work");
 }
 
@@ -59,8 +59,8 @@ ExitCode together(const std::function<void(const Ranks&)>& prepare,
     if (started_as() > 0) Silence();
     throw InputError(
         "faultsim run",
-        concat("it was started as ", started_with(), " processes that do not know of each other"),
-        "start them by mpirun; within a job of Slurm it takes the job's hosts");
+        concat("it was started as ", started_with(), " processes that do not know each other"),
+        "start them with mpirun; within a Slurm job it takes the job's hosts");
   }
   std::optional<Silence> silence;
   if (ranks.rank() > 0) silence.emplace();

@@ -84,7 +84,7 @@ std::vector<CaseChartRequest> charts_of(const json& question) {
   for (const json& name : question.value("charts", json::array())) {
     const CaseChartInfo* info = case_chart_named(name.get<std::string>());
     if (info == nullptr)
-      throw InputError("charts", name.dump() + " is no chart of a case", "faultsim plot --help");
+      throw InputError("charts", name.dump() + " is not a chart of a case", "faultsim plot --help");
     request.chart = info->chart;
     wanted.push_back(request);
   }
@@ -181,7 +181,7 @@ ExitCode what_if_command(const WorkerArguments& arguments) {
   WhatIf what_if(arguments);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(fdopen(arguments.requests, "r"),
                                                              std::fclose);
-  if (file == nullptr) throw InputError("--requests", "is no open descriptor", "give one");
+  if (file == nullptr) throw InputError("--requests", "is not an open descriptor", "give one");
   char* line = nullptr;
   std::size_t size = 0;
   long last = 0;

@@ -24,8 +24,8 @@ std::vector<std::string> sentences_of(const CaseResult& result) {
 std::vector<std::string> differences_of(const ShownCase& original, const ShownCase& shown) {
   std::vector<std::string> said = difference_sentences(original.result, shown.result);
   if (original.scene.tier != shown.scene.tier)
-    said.push_back(concat("Its tier is ", shown.scene.tier, " now, and was ", original.scene.tier,
-                          ": the cells are others."));
+    said.push_back(concat("Its tier is now ", shown.scene.tier, " and was ", original.scene.tier,
+                          ": the cells differ."));
   return said;
 }
 
