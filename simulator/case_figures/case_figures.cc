@@ -39,7 +39,7 @@ MapField field_shown(const std::string& place, const std::string& word) {
 
 void require_shows(const CaseChartInfo& info, MapField show) {
   if (info.chart == CaseChart::fault_map || show == MapField::chi) return;
-  case_figures::refuse("--show", concat("is of a fault-map, which ", info.name, " is not"),
+  case_figures::refuse("--show", concat("is for a fault-map, which ", info.name, " is not"),
                        "leave it out, or plot a fault-map");
 }
 
@@ -49,7 +49,7 @@ void require_draws_original(const CaseChartInfo& info) {
   for (const CaseChartInfo& one : case_charts()) {
     if (one.draws_original) others += concat(others.empty() ? "" : ", ", one.name);
   }
-  case_figures::refuse("--before", concat("a ", info.name, " is of one case"),
+  case_figures::refuse("--before", concat("a ", info.name, " shows one case only"),
                        "choose a chart of curves: " + others);
 }
 

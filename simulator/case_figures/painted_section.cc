@@ -116,7 +116,7 @@ std::vector<std::string> words_of(const CasePicture& picture, const SectionPlace
       concat("means over pieces of at most ", plain_number(pressures.width()), " m × ",
              plain_number(pressures.height()), " m; ", same_scale_words(picture, has_original))};
   if (load.integral == IntegralRule::flow_grid)
-    words.emplace_back("before they are scaled to the integrals of the flow grid, as what acts is");
+    words.emplace_back("before scaling to the integrals of the flow grid; what acts is scaled");
   if (const std::string ended = ended_words(picture.scene, pressures); !ended.empty())
     words.push_back(ended);
   if (pressures.n_covered() < pressures.n_all()) {

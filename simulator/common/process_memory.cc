@@ -61,7 +61,7 @@ void limit_memory(double bytes) {
   if (bytes - used < kLeastWorkingBytes) {
     throw ResourceError(
         concat("not enough memory: under a limit of ", std::llround(bytes / 1e6),
-               " MB the simulator, which has ", std::llround(used / 1e6),
+               " MB the simulator, which uses ", std::llround(used / 1e6),
                " MB at its start, can do nothing; give it at least ",
                std::llround(std::max(used + kLeastWorkingBytes, kLeastMemoryLimit) / 1e6), " MB"));
   }

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostProblems = 20;  // of a kind, spelled out
 constexpr std::size_t kMostColumns = 10000;
 constexpr const char* kNumberCure =
-    "write a decimal number; its unit stands in the header, and rows without a value are left out";
+    "write a decimal number, with its unit in the header, and leave out rows without a value";
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
@@ -161,7 +161,7 @@ bool TableReader::split(std::string_view line) {
   cells_.clear();
   unquoted_.clear();
   if (const std::string odd = first_odd(line); !odd.empty()) {
-    refuse("holds \"" + odd + "\", which is not a character of a text",
+    refuse("contains \"" + odd + "\", which is not a text character",
            "remove it, or save the table as text in UTF-8");
     return false;
   }
@@ -176,7 +176,7 @@ bool TableReader::split(std::string_view line) {
 
 bool TableReader::split_quoted(std::string_view line) {
   const char* cure =
-      "put a cell that holds quotes into quotes, and write each of them twice: \"5\"\" pipe\"";
+      "put a cell that contains quotes in quotes, and double each of them: \"5\"\" pipe\"";
   const auto skip_blanks = [&](std::size_t at) {
     while (at < line.size() && is_blank(line[at]) && line[at] != separator_) ++at;
     return at;
@@ -224,7 +224,7 @@ bool TableReader::set_unit(std::size_t column, Dimension dimension, const ValueR
     refuse(name + " does not hold " + (is_temperature ? "a temperature" : info_of(dimension).noun),
            cure);
   } else if (!sound_words) {
-    refuse(name + " ends with " + table_quote(heading.words) + " behind its unit", cure);
+    refuse(name + " ends with " + table_quote(heading.words) + " after its unit", cure);
   } else {
     units_[column] = *unit;
     units_[column].range = range;
@@ -253,7 +253,7 @@ TableNumber TableReader::check_number(std::size_t column) const {
   return {0,
           concat(table_quote(cell), " in column ", column + 1, " ",
                  table_quote(columns_[column].text), " is not within ", unit.range->text),
-          concat("write values of ", unit.range->text, ", in the unit that the header says")};
+          concat("write values of ", unit.range->text, ", in the unit of the header")};
 }
 
 std::optional<double> TableReader::number(std::size_t column) {

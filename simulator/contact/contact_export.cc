@@ -80,10 +80,10 @@ ContactLaws frozen_laws(const FaultOperator& op, const ContactLaws& laws, const 
     problems.push_back({"", 0,
                         concat(what, " at ", obstacle.count, " of ", laws.size(),
                                " nodes (first: ", place(problem, static_cast<int>(obstacle.first)),
-                               "), and a friction cone has no cohesion"),
+                               "), but a friction cone has no cohesion"),
                         cure});
   };
-  refuse(cohesion, "cohesion is at work in the step", "set the cohesion to 0");
+  refuse(cohesion, "cohesion acts in the step", "set the cohesion to 0");
   refuse(change, "friction may weaken within the step",
          "freeze the strength: every node keeps the friction coefficient that it has at the start "
          "of the step");

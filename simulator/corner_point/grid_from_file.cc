@@ -45,7 +45,7 @@ class GridMaker {
     const auto& [n_i, n_j, n_k] = file_.size;
     if (n_i < 1 || n_j < 1 || n_k < 1) {
       return refuse(concat("has ", n_i, " x ", n_j, " x ", n_k, " cells"),
-                    "each number (GRIDHEAD) is at least 1");
+                    "give 1 or more along each axis (GRIDHEAD)");
     }
     const auto i = static_cast<std::size_t>(n_i), j = static_cast<std::size_t>(n_j);
     const std::size_t n_cells = i * j * static_cast<std::size_t>(n_k);
@@ -59,8 +59,8 @@ class GridMaker {
 
   void check_size(const std::string& name, std::size_t is, std::size_t should_be) {
     if (is == should_be) return;
-    refuse(concat(name, " has ", is, " numbers, and a grid of this size ", should_be),
-           "write the grid anew from the flow simulator");
+    refuse(concat(name, " has ", is, " numbers, but a grid of this size has ", should_be),
+           "write the grid again from the flow simulator");
   }
 
   void take_active() {
@@ -74,7 +74,7 @@ class GridMaker {
   void take_units() {
     if (!file_.length_unit.empty() && !eclipse_metre(file_.length_unit)) {
       refuse("GRIDUNIT says \"" + file_.length_unit + "\"",
-             "METRES, FEET and CM are known; mend GRIDUNIT in the flow model");
+             "METRES, FEET and CM are known; correct GRIDUNIT in the flow model");
     }
     const EclipseLength length = eclipse_length(file_, depth_ratio(file_));
     metre_ = length.metre;
@@ -99,7 +99,7 @@ class GridMaker {
     const double sine = std::abs(x.x() * y.y() - x.y() * y.x()) / (x.norm() * y.norm());
     if (!(sine > kLeastSine)) {
       return refuse("has axes on the map (MAPAXES) that are not at right angles to each other",
-                    "mend MAPAXES in the flow model, or remove it");
+                    "correct MAPAXES in the flow model, or remove it");
     }
     origin_ = point(2);
     along_x_ = x.normalized();
@@ -126,9 +126,9 @@ class GridMaker {
     if (n_bad_pillars_ == 0) return;
     const int n = grid_.size[0] + 1;
     refuse(concat("COORD: ", counted(n_bad_pillars_, "pillar has", "pillars have"),
-                  " a coordinate that is no number, the first at i = ", first_bad_pillar_ % n + 1,
-                  ", j = ", first_bad_pillar_ / n + 1),
-           "write the grid anew from the flow simulator");
+                  " a coordinate that is not a number, the first at i = ",
+                  first_bad_pillar_ % n + 1, ", j = ", first_bad_pillar_ / n + 1),
+           "write the grid again from the flow simulator");
   }
 
   void take_corners() {
@@ -137,8 +137,8 @@ class GridMaker {
     const auto n_bad =
         std::ranges::count_if(grid_.corner_z, [](double z) { return !std::isfinite(z); });
     if (n_bad > 0) {
-      refuse(concat("ZCORN: ", counted(n_bad, "depth is", "depths are"), " no number"),
-             "write the grid anew from the flow simulator");
+      refuse(concat("ZCORN: ", counted(n_bad, "depth is not a number", "depths are not numbers")),
+             "write the grid again from the flow simulator");
     }
   }
 
@@ -159,7 +159,7 @@ class GridMaker {
   std::vector<int> of_all_cells(const std::vector<int>& of_active, const std::string& name) {
     if (of_active.empty()) return {};
     if (std::ssize(of_active) != n_active_) {
-      refuse(concat(name, " of the INIT file has ", of_active.size(), " numbers, and the grid ",
+      refuse(concat(name, " of the INIT file has ", of_active.size(), " numbers, but the grid has ",
                     n_active_, " active cells"),
              "keep the files of one run together");
       return {};
@@ -184,12 +184,12 @@ class GridMaker {
     }
     if (n_inverted == 0) return;
     const std::array<int, 2> at = grid_.place(first % grid_.n_columns());
-    refuse(
-        concat(counted(n_inverted, "cell has its bottom above its top",
-                       "cells have their bottoms above their tops"),
-               ", the first at i = ", at[0] + 1, ", j = ", at[1] + 1,
-               ", k = ", first / grid_.n_columns() + 1),
-        "layers count downwards, and depths (ZCORN) grow downwards; mend them in the flow model");
+    refuse(concat(counted(n_inverted, "cell has its bottom above its top",
+                          "cells have their bottoms above their tops"),
+                  ", the first at i = ", at[0] + 1, ", j = ", at[1] + 1,
+                  ", k = ", first / grid_.n_columns() + 1),
+           "correct them in the flow model: layers count downwards, and depths (ZCORN) grow "
+           "downwards");
   }
 
   const EclipseGrid& file_;

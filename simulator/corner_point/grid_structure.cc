@@ -28,7 +28,7 @@ void check_options(const CornerPointGrid& grid, const StructureOptions& options)
        " m is not positive", "write the noise of the grid's depths, 0.1 m");
   need(options.least_offset >= options.negligible_offset, "least_offset", options.least_offset,
        " m is below negligible_offset", "write an offset that counts as a fault, 6 m");
-  need(options.fewest_edges >= 1, "fewest_edges", options.fewest_edges, " is no number of edges",
+  need(options.fewest_edges >= 1, "fewest_edges", options.fewest_edges, " is below 1",
        "write 1 or more");
   need(options.straightening > 0, "straightening", options.straightening, " cells is not positive",
        "write half a cell, 0.5");
@@ -39,7 +39,7 @@ void check_options(const CornerPointGrid& grid, const StructureOptions& options)
   const bool lacks_fluid =
       options.compartments == CompartmentRule::fluid_regions && grid.fluid_region.empty();
   need(!lacks_equilibrium && !lacks_fluid, "compartments", lacks_fluid ? "FIPNUM" : "EQLNUM",
-       " is not there", "put the INIT file beside the grid, or let the faults bound compartments");
+       " is missing", "put the INIT file beside the grid, or let the faults bound compartments");
   if (!problems.empty()) throw InputError("options of the grid's structure", problems);
 }
 

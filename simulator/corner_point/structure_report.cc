@@ -49,11 +49,11 @@ class ReportWriter {
     if (n_inactive > 0)
       add(RemarkKind::left_out,
           counted(n_inactive, "inactive cell", "inactive cells") +
-              " in active columns: of no compartment; horizons run through them");
+              " in active columns: in no compartment; horizons run through them");
     if (found_.n_hole_columns > 0)
       add(RemarkKind::choice,
           counted(found_.n_hole_columns, "inactive column", "inactive columns") +
-              " that active ones enclose: faults and horizons run through");
+              " enclosed by active ones: faults and horizons run through them");
     if (found_.n_collapsed_cells > 0) say_collapsed();
     if (found_.largest_gap > options_.no_thickness)
       add(RemarkKind::warning,
@@ -141,11 +141,11 @@ class ReportWriter {
         const std::string name = name_of(static_cast<int>(f));
         if (end->n_extension > 0) {
           add(RemarkKind::choice,
-              concat(name, " ends in the grid and was prolonged by ", end->n_extension,
-                     " pillar edges, so that it separates"),
+              concat(name, " ends in the grid and was extended by ", end->n_extension,
+                     " pillar edges, so that it separates compartments"),
               "extend_faults");
         } else if (options_.extend_faults) {
-          add(RemarkKind::warning, name + " ends in the grid and could not be prolonged");
+          add(RemarkKind::warning, name + " ends in the grid and could not be extended");
         } else {
           add(RemarkKind::warning,
               name + " ends in the grid: it does not separate compartments there", "extend_faults");
@@ -165,7 +165,7 @@ class ReportWriter {
   }
 
   void say_compartments() {
-    const std::string rule = options_.compartments == CompartmentRule::faults ? "that faults bound"
+    const std::string rule = options_.compartments == CompartmentRule::faults ? "bounded by faults"
                              : options_.compartments == CompartmentRule::equilibrium_regions
                                  ? "by EQLNUM"
                                  : "by FIPNUM";
@@ -212,7 +212,7 @@ class ReportWriter {
     if (found_.n_connections == 0) return;
     add(RemarkKind::recognised,
         concat(counted(found_.n_connections, "connection", "connections"),
-               " between cells that are no neighbours, ", found_.n_connections_on_faults,
+               " between cells that are not neighbours, ", found_.n_connections_on_faults,
                " of them across the faults"),
         "faults_by_connections");
   }

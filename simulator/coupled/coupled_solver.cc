@@ -65,7 +65,7 @@ template <typename Kind>
 Kind kind_of(const std::string& name, const char* option, std::vector<Problem>& problems) {
   if (const auto kind = named<Kind>(name)) return *kind;
   problems.push_back({"", 0, concat(option, " ", name, " is not known"),
-                      "choose of " + joined(words(Kind()), ", ")});
+                      "choose from " + joined(words(Kind()), ", ")});
   return Kind();
 }
 
@@ -104,8 +104,8 @@ void require_runs_on_ranks(const SolverChoice& choice, int n_ranks) {
   if (n_ranks == 1 || runs_on_ranks(choice)) return;
   throw InputError("coupled path",
                    concat(to_string(choice.leading), " with ", to_string(choice.schur),
-                          " runs on one rank, and it was started on ", n_ranks),
-                   "take amg, amg-u or ilu with rac or lsc, or start it without mpirun");
+                          " runs on one rank, but was started on ", n_ranks),
+                   "use amg, amg-u or ilu with rac or lsc, or start it without mpirun");
 }
 
 struct CoupledSolver::Impl {

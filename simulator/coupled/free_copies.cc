@@ -65,8 +65,8 @@ std::vector<int> tie_alike(const Place& place, const Eigen::MatrixXd& weights, D
       "coupled path",
       {{"/geometry/boundary", 0,
         concat("a condition at (", x.x(), ", ", x.y(), ", ", x.z(),
-               ") m closes one of the faults that meet there and not the other"),
-        "let it hold the rock on all sides of both faults, or take the condensed path"}});
+               ") m closes one of the faults that meet there but not the other"),
+        "let it hold the rock on all sides of both faults, or use the condensed path"}});
 }
 
 /// Terms of several sums by node.

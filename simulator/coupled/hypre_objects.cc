@@ -34,7 +34,7 @@ void start_hypre() {
     // memory.
     setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     if (has_mpi == 0 && MPI_Init(nullptr, nullptr) != MPI_SUCCESS) {
-      throw ResourceError("MPI does not start, which the coupled path needs");
+      throw ResourceError("MPI, which the coupled path needs, does not start");
     }
     HYPRE_Init();
     std::atexit(end_hypre);

@@ -22,7 +22,7 @@ void write_big_endian(std::ostream& to, Bits bits) {
 
 void write_count(std::ostream& to, long count) {
   if (count > std::numeric_limits<std::int32_t>::max())
-    throw ResourceError(concat("PETSc's files count with 32 bits, and this is ", count));
+    throw ResourceError(concat("PETSc's files count with 32 bits, but this is ", count));
   write_big_endian(to, static_cast<std::uint32_t>(count));
 }
 

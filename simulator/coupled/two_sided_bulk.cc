@@ -18,8 +18,8 @@ namespace {
   throw InputError("coupled path",
                    {{"/geometry/boundary", 0,
                      concat("at (", x.x(), ", ", x.y(), ", ", x.z(),
-                            ") m a condition holds one side of a fault and not the other"),
-                     "let it hold both sides, or take the condensed path"}});
+                            ") m a condition holds one side of a fault but not the other"),
+                     "let it hold both sides, or use the condensed path"}});
 }
 
 /// The rows `first` … `first + n_own − 1` of a symmetric matrix of size n with row and column k of
@@ -143,7 +143,7 @@ void TwoSidedBulk::require_pieces_held() const {
         {{"/boundary", 0,
           concat("a piece of ", pieces.n_cells[piece], " cells that the faults cut loose can ",
                  describe(modes)),
-          "hold it by a boundary condition, take rac as its Schur complement, or use the "
+          "hold it by a boundary condition, use rac as the Schur complement, or use the "
           "condensed path"}});
   }
 }

@@ -237,7 +237,7 @@ CoupledCase::CoupledCase(const SceneBulk& scene, const SolverChoice& solver,
   if (takes_columns(scene.scene(), scene.plan())) {
     if (ranks.size() > 1)
       throw InputError("coupled path",
-                       "faults that weaken, or lose cohesion by slip, take columns of H, which are "
+                       "faults that weaken, or lose cohesion by slip, need columns of H, which are "
                        "made in one process",
                        "start it without mpirun");
     solved_ = std::make_unique<SolvedCase>(scene, solver, context);

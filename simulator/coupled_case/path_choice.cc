@@ -24,7 +24,7 @@ PathChoice choose_path(const Plan& plan, std::optional<double> available,
   const std::string needs =
       concat("the condensed operator needs about ", gigabytes(plan.memory_bytes));
   if (!available) {
-    return {SolutionPath::condensed, needs + ", and how much there is is not known"};
+    return {SolutionPath::condensed, needs + ", and the available memory is not known"};
   }
   const std::string there = concat(" of ", gigabytes(*available));
   if (plan.memory_bytes <= *available) {

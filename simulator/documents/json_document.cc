@@ -187,7 +187,7 @@ class Builder final : public json::json_sax_t {
     if (const auto at = detail.find(noise); at != std::string::npos) detail.erase(at, noise.size());
     constexpr std::size_t kLongest = 200;  // the parser repeats what it read last, be it megabytes
     problem.what = "not valid JSON, " + shortened(detail, kLongest);
-    problem.cure = "look here and just before for a comma, quote or bracket too many or too few";
+    problem.cure = "look here and just before for a missing or superfluous comma, quote or bracket";
     return problem;
   }
 
@@ -321,7 +321,7 @@ std::string scene_of_page(const std::string& html, const std::string& source) {
   const std::size_t at = html.find(kSceneElement);
   const std::size_t end = at == std::string::npos ? at : html.find("</script>", at);
   if (end == std::string::npos) {
-    throw InputError(source, "the page holds no scene",
+    throw InputError(source, "the page contains no scene",
                      "name a page that faultsim report wrote, or a scene file");
   }
   const std::size_t begin = at + kSceneElement.size();
@@ -346,7 +346,7 @@ json value_of_text(const std::string& text, const std::string& source, const std
   if (bad.empty()) return text;
   throw InputError(
       source,
-      {{pointer, 0, "the value holds the control character or stray byte " + bad, "remove it"}});
+      {{pointer, 0, "the value contains the control character or stray byte " + bad, "remove it"}});
 }
 
 void set_value(JsonDocument& document, const std::string& pointer, const std::string& value) {

@@ -18,7 +18,7 @@ using nlohmann::json;
 std::string type_words(const json& types) {
   static const std::map<std::string, std::string> words = {{"object", "an object {...}"},
                                                            {"array", "a list [...]"},
-                                                           {"string", "a text"},
+                                                           {"string", "text"},
                                                            {"number", "a number"},
                                                            {"integer", "a whole number"},
                                                            {"boolean", "true or false"},
@@ -90,7 +90,7 @@ class SchemaChecker {
     const auto refuse = [&](const char* what, const ValuePlace& at, const std::string& bad) {
       const std::string pointer = at.pointer();
       problems_.push_back({pointer, document_.line_of(pointer),
-                           concat(what, " holds the control character or stray byte ", bad),
+                           concat(what, " contains the control character or stray byte ", bad),
                            "remove it"});
     };
     if (value.is_string()) {
@@ -164,7 +164,7 @@ class SchemaChecker {
     if (const json* only = keyword(views, "const")) allowed = {only->dump()};
     const std::string word = value.is_string() ? value.get<std::string>() : "";
     add(place.pointer(), as_text(value) + " is not known here",
-        example_cure(views, may_suggest() ? suggest(word, allowed) : "write a word it knows"));
+        example_cure(views, may_suggest() ? suggest(word, allowed) : "write a known word"));
   }
 
   void explain_type(const ValuePlace& place, const json& value, const SchemaViews& views) {

@@ -64,7 +64,7 @@ std::vector<Problem> problems_of_place(const fs::path& parent) {
   }
   if (const fs::path store = store_around(parent); !store.empty()) {
     return {{"", 0, concat("it lies in the store ", store.string(), ", which holds campaigns only"),
-             "choose a place outside of it"}};
+             "choose a place outside it"}};
   }
   return {};
 }
@@ -80,7 +80,7 @@ Problem problem_of_special_file(const fs::path& target, const fs::file_status& s
 std::vector<Problem> problems_of_file(const fs::path& target, FileKind kind,
                                       const std::vector<fs::path>& inputs) {
   if (!target.has_filename() || is_standard_output(target)) {
-    return {{"", 0, concat("\"", target.string(), "\" names no file"), "name a file"}};
+    return {{"", 0, concat("\"", target.string(), "\" is not the name of a file"), "name a file"}};
   }
   std::error_code error;
   fs::file_status status = fs::status(target, error);

@@ -156,7 +156,7 @@ void ResultFolder::check_entries() const {
          "choose another folder, or move the file away"});
   }
   if (fs::exists(fs::symlink_status(work_, error)) && !is_work(work_)) {
-    problems.push_back({"", 0, concat(work_.string(), " is in the way and none of ours"),
+    problems.push_back({"", 0, concat(work_.string(), " is in the way and is not one of ours"),
                         "choose another folder, or move it away"});
   }
   std::vector<std::string> removed = old_;
@@ -219,7 +219,7 @@ void ResultFolder::commit() {
   std::error_code error;
   for (const std::string& entry : made.files) {
     if (fs::exists(fs::symlink_status(folder_ / entry, error)) && !contains(old_, entry)) {
-      fail("write", folder_ / entry, "something of this name came meanwhile");
+      fail("write", folder_ / entry, "something of this name has appeared meanwhile");
     }
   }
   write_text(

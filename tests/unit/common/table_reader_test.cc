@@ -159,7 +159,7 @@ TEST(TableReader, RefusesCharactersThatAreNoneAndQuotesThatDoNotClose) {
 
 TEST(TableReader, RefusesWordsBehindAUnitThatMeanNothing) {
   EXPECT_THAT(refusal("x [m] gauge\n1\n"),
-              HasSubstr("t.csv:1: column 1 \"x [m] gauge\" ends with \"gauge\" behind its unit; "
+              HasSubstr("t.csv:1: column 1 \"x [m] gauge\" ends with \"gauge\" after its unit; "
                         "head it x [m]"));
   EXPECT_EQ(refusal("x [m] below\n1\n", {"below"}), "");
   EXPECT_THAT(refusal("x\n1\n"), HasSubstr("has no unit in brackets"));

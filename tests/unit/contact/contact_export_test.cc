@@ -241,8 +241,8 @@ TEST(FrozenLaws, RefuseCohesionThatIsAtWork) {
   ContactState start = initial_state(op);
   EXPECT_THAT(
       refusal(op, laws, start),
-      HasSubstr("cohesion is at work in the step at 1 of 1 nodes (first: fault 'main' at "
-                "x = 0 m, y = 0 m, depth = 2000 m), and a friction cone has no cohesion; set the "
+      HasSubstr("cohesion acts in the step at 1 of 1 nodes (first: fault 'main' at "
+                "x = 0 m, y = 0 m, depth = 2000 m), but a friction cone has no cohesion; set the "
                 "cohesion to 0"));
   start.cohesion_lost[0] = 1;  // gone
   EXPECT_EQ(refusal(op, laws, start), "accepted");

@@ -167,11 +167,12 @@ TEST(CornerPointGrid, IsRefusedWithAllThatIsWrong) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().size(), 6u);
     EXPECT_THAT(error.what(), HasSubstr("GRIDUNIT says \"YARDS\"; METRES, FEET and CM are known"));
-    EXPECT_THAT(error.what(), HasSubstr("1 pillar has a coordinate that is no number, the first "
+    EXPECT_THAT(error.what(), HasSubstr("1 pillar has a coordinate that is not a number, the first "
                                         "at i = 2, j = 1"));
-    EXPECT_THAT(error.what(), HasSubstr("EQLNUM of the INIT file has 2 numbers, and the grid 86"));
+    EXPECT_THAT(error.what(),
+                HasSubstr("EQLNUM of the INIT file has 2 numbers, but the grid has 86"));
     EXPECT_THAT(error.what(), HasSubstr("connect cells 1 and 91 of 90"));
-    EXPECT_THAT(error.what(), HasSubstr("ZCORN: 1 depth is no number"));
+    EXPECT_THAT(error.what(), HasSubstr("ZCORN: 1 depth is not a number"));
     EXPECT_THAT(error.what(), HasSubstr("not at right angles"));
   }
 }
@@ -185,7 +186,7 @@ TEST(CornerPointGrid, IsRefusedWhereSizesDoNotFit) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().size(), 2u);
-    EXPECT_THAT(error.what(), HasSubstr("ZCORN has 719 numbers, and a grid of this size 720"));
+    EXPECT_THAT(error.what(), HasSubstr("ZCORN has 719 numbers, but a grid of this size has 720"));
   }
   EXPECT_THAT([] { corner_point_grid({}, "CASE.EGRID"); },
               ThrowsMessage<InputError>(HasSubstr("has 0 x 0 x 0 cells")));

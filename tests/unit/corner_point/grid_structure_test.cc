@@ -154,7 +154,7 @@ TEST(GridStructure, ProlongsATipOnRequest) {
   EXPECT_EQ(found.faults[0].end.n_extension, 5);
   ASSERT_EQ(found.compartments.size(), 2u);
   EXPECT_EQ(found.compartments[1].n_columns, 7 * 16);
-  EXPECT_THAT(text_of(found), HasSubstr("prolonged by 5 pillar edges"));
+  EXPECT_THAT(text_of(found), HasSubstr("extended by 5 pillar edges"));
 }
 
 TEST(GridStructure, FindsWhereAFaultEndsAtAnother) {
@@ -540,7 +540,7 @@ TEST(GridStructure, RefusesOptionsWithAllThatIsWrong) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.problems().size(), 6u);
     EXPECT_THAT(error.what(), HasSubstr("/least_offset: -1 m is below negligible_offset"));
-    EXPECT_THAT(error.what(), HasSubstr("EQLNUM is not there; put the INIT file beside the grid"));
+    EXPECT_THAT(error.what(), HasSubstr("EQLNUM is missing; put the INIT file beside the grid"));
   }
 }
 

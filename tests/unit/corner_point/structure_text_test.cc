@@ -25,7 +25,7 @@ TEST(StructureText, SaysWhatWasRecognisedAndChosen) {
                         "largest offset 30 m, right is lower; dips 63 degrees (63 to 63) towards "
                         "90, a normal fault; ends: at the edge of the grid with an offset of 30 m; "
                         "at the edge of the grid with an offset of 30 m [least_offset]\n"));
-  EXPECT_THAT(text, HasSubstr("2 compartments that faults bound [compartments]\n"));
+  EXPECT_THAT(text, HasSubstr("2 compartments bounded by faults [compartments]\n"));
   EXPECT_THAT(text, HasSubstr("chosen: traces are those at z = -2000 m [reference_z]\n"));
   EXPECT_THAT(text,
               HasSubstr("    1      4       320      30.0       63           90  edge, edge\n"));

@@ -98,7 +98,7 @@ TEST(FreeCopies, RefuseWhatHoldsOneOfTwoFaultsThatMeet) {
   constexpr std::array kAll = {true, true, true};
   EXPECT_EQ(refusal(Side::z_max, kAll, [](const auto&) { return true; }), "");
   EXPECT_THAT(refusal(Side::z_max, kAll, [](const auto& x) { return x.x() < 200; }),
-              testing::HasSubstr("closes one of the faults that meet there and not the other"));
+              testing::HasSubstr("closes one of the faults that meet there but not the other"));
 }
 
 TEST(FreeCopies, RefuseASideThatIsHeldBesideAFaultOnly) {
@@ -110,7 +110,7 @@ TEST(FreeCopies, RefuseASideThatIsHeldBesideAFaultOnly) {
                         const bool beside = x.x() > 130 && x.x() < 200 && x.z() > -200;
                         return !(beside && taken_out++ == 0);
                       }),
-              testing::HasSubstr("holds one side of a fault and not the other"));
+              testing::HasSubstr("holds one side of a fault but not the other"));
 }
 
 }  // namespace

@@ -309,7 +309,7 @@ TEST(CoupledCase, HoldsLooseBlocksByTheirFaults) {
     FAIL() << "K is singular";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("that the faults cut loose can move along z"));
-    EXPECT_THAT(error.what(), HasSubstr("take rac as its Schur complement"));
+    EXPECT_THAT(error.what(), HasSubstr("use rac as the Schur complement"));
   }
 }
 

@@ -87,9 +87,9 @@ TEST(CheckSchema, RefusesControlCharactersExceptInComments) {
   const json schema = json::parse(R"({"type": "object", "additionalProperties": {}})");
   EXPECT_EQ(
       problems_of("{\"a\": \"x\\u001b\",\n\"b\\r\": [{\"comment\": \"\\n\"}, \"\\n\"]}", schema),
-      "f:1: /a: the text holds the control character or stray byte \\u001b; remove it\n"
-      "f:2: /b\\u000d: the key holds the control character or stray byte \\u000d; remove it\n"
-      "f:2: /b\\u000d/1: the text holds the control character or stray byte \\u000a; remove it");
+      "f:1: /a: the text contains the control character or stray byte \\u001b; remove it\n"
+      "f:2: /b\\u000d: the key contains the control character or stray byte \\u000d; remove it\n"
+      "f:2: /b\\u000d/1: the text contains the control character or stray byte \\u000a; remove it");
 }
 
 /// Compared in pairs it would take minutes.

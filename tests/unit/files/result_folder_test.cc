@@ -291,7 +291,7 @@ TEST_F(OutputTarget, ALinkIsWrittenWhereItLeads) {
 TEST_F(OutputTarget, StandardOutputHasItsNames) {
   for (const char* name : {"-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) {
     EXPECT_TRUE(is_standard_output(name)) << name;
-    EXPECT_THAT(refused(name), HasSubstr("names no file")) << name;
+    EXPECT_THAT(refused(name), HasSubstr("is not the name of a file")) << name;
   }
   EXPECT_FALSE(is_standard_output("./-"));
 }

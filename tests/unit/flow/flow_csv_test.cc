@@ -114,7 +114,7 @@ TEST(FlowCsv, SaysAWrongUnitOnceAndHowTheQuantityIsHeaded) {
   EXPECT_THAT(said, HasSubstr("1990-01-01 [degC]"));
   EXPECT_THAT(said, testing::Not(HasSubstr("1991")));
   EXPECT_THAT(refusal(places + ", 1990-01-01 [bar] change\n"),
-              HasSubstr("ends with \"change\" behind its unit"));
+              HasSubstr("ends with \"change\" after its unit"));
 }
 
 TEST(FlowCsv, TellsTheSizesOfARegularGrid) {

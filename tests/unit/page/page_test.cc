@@ -147,7 +147,7 @@ TEST_F(PageFile, WithoutASceneIsRefused) {
     read_json_file(path_);
     ADD_FAILURE() << "no refusal";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("the page holds no scene"));
+    EXPECT_THAT(error.what(), HasSubstr("the page contains no scene"));
   }
 }
 

@@ -78,7 +78,7 @@ TEST(PillarTable, SaysAllThatIsWrongAtOnce) {
   EXPECT_EQ(problems_of("X,Y\n1,2\n", {{"x", "X [m]"}, {"y", "YY [m]"}}),
             (Lines{"1: there is no column \"YY\" for y", "1: there is no column \"y\""}));
   EXPECT_EQ(problems_of("x [m], y [m], offset [m] gauge\n"),
-            (Lines{"1: column 3 \"offset [m] gauge\" ends with \"gauge\" behind its unit"}));
+            (Lines{"1: column 3 \"offset [m] gauge\" ends with \"gauge\" after its unit"}));
 }
 
 TEST(PillarTable, RefusesAPillarWithoutANumberAlone) {

@@ -63,7 +63,7 @@ TEST(FaultPressureCsv, IsRefusedWithItsLine) {
               HasSubstr("the time 1 year does not come after"));
   EXPECT_THAT(refusal("depth [m], 0 year [bar], 1990-01-01 [bar]\n"), HasSubstr("dates"));
   EXPECT_THAT(refusal("depth [m], 0 year [bar], 1 year [bar] gauge\n"),
-              HasSubstr("ends with \"gauge\" behind its unit"));
+              HasSubstr("ends with \"gauge\" after its unit"));
   EXPECT_THAT(refusal("depth [m], 0 year [bar], 1e300 year [bar]\n"),
               HasSubstr("neither a time nor a date"));
   EXPECT_THAT(refusal(header + "3000, 1, 1e9\n"),
