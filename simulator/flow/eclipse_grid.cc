@@ -34,7 +34,7 @@ class EclipseGridReader : EclipseProblems {
     std::error_code error;
     if (!std::filesystem::is_regular_file(files_.grid, error)) {
       refuse(files_.grid, "there is no such grid",
-             "write GRIDFILE with an EGRID in the flow simulator");
+             "let the flow simulator write an EGRID (GRIDFILE)");
     } else {
       guarded(files_.grid, [&] { take_grid(); });
       take_neighbours();
@@ -50,10 +50,10 @@ class EclipseGridReader : EclipseProblems {
       refuse(files_.grid, "has local grid refinements (" + file.list_of_lgrs().front() + ")",
              "write the grid without them; refined cells are not read");
     }
-    if (file.is_radial()) refuse(files_.grid, "is a radial grid", "corner-point grids are read");
+    if (file.is_radial()) refuse(files_.grid, "is a radial grid", "use a corner-point grid");
     const std::vector<int> head = array_of<int>(file, "GRIDHEAD");
     if (head.size() > kCoordinateSystems && head[kCoordinateSystems] > 1)
-      refuse(files_.grid, "has several coordinate systems", "grids with one are read (NUMRES)");
+      refuse(files_.grid, "has several coordinate systems", "use a grid with one (NUMRES)");
     if (!problems_.empty()) return;
     grid_.size = file.dimension();
     grid_.coord = array_of<float>(file, "COORD");
@@ -70,7 +70,7 @@ class EclipseGridReader : EclipseProblems {
 
   void take_connections(const std::vector<int>& one, const std::vector<int>& other) {
     if (one.size() != other.size())
-      return refuse(files_.grid, "has NNC1 and NNC2 of different lengths", "write it anew");
+      return refuse(files_.grid, "has NNC1 and NNC2 of different lengths", "write it again");
     for (std::size_t c = 0; c < one.size(); ++c)
       grid_.connections.push_back({one[c] - 1, other[c] - 1});
   }

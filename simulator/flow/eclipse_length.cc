@@ -68,7 +68,7 @@ EclipseLength eclipse_length(const EclipseGrid& grid, std::optional<double> dept
       grid.unit_system >= 1 && grid.unit_system <= static_cast<int>(kSystems.size());
   if (!has_system) {
     if (said) return {*said, ""};
-    return {1, "neither GRIDUNIT nor INTEHEAD says a unit of length: metres were taken"};
+    return {1, "neither GRIDUNIT nor INTEHEAD gives a unit of length: metres were assumed"};
   }
   const double metre = kSystemMetres[grid.unit_system - 1];
   if (!said || *said == metre) return {metre, ""};
@@ -81,11 +81,10 @@ EclipseLength eclipse_length(const EclipseGrid& grid, std::optional<double> dept
   };
   if (is_ratio(*said / metre)) {
     return {*said, contradiction + "lengths were taken as " + metre_words(*said) +
-                       ", with which alone the depths of the cells (DEPTH) agree"};
+                       ", with which alone the cells' depths (DEPTH) agree"};
   }
-  return {metre,
-          contradiction + "lengths were taken as " + metre_words(metre) +
-              (is_ratio(1) ? ", with which alone the depths of the cells (DEPTH) agree" : "")};
+  return {metre, contradiction + "lengths were taken as " + metre_words(metre) +
+                     (is_ratio(1) ? ", with which alone the cells' depths (DEPTH) agree" : "")};
 }
 
 }  // namespace faultsim

@@ -25,7 +25,7 @@ class EclipseProblems {
       throw;
     } catch (const std::exception& error) {
       refuse(file, std::string("cannot be read: ") + error.what(),
-             "copy it anew; it may be cut off");
+             "copy it again; it may be cut off");
     }
   }
 

@@ -84,7 +84,7 @@ class EclipseReader : EclipseProblems {
     std::error_code error;
     if (!std::filesystem::is_regular_file(files_.grid, error)) {
       refuse(files_.grid, "there is no such grid",
-             "write GRIDFILE with an EGRID in the flow simulator, beside the restarts");
+             "let the flow simulator write an EGRID (GRIDFILE) beside the restarts");
       throw_if_any(files_.grid);
     }
     guarded(files_.grid, [&] { take_cells(); });
@@ -97,8 +97,7 @@ class EclipseReader : EclipseProblems {
       return refuse(files_.grid, "has local grid refinements (" + grid.list_of_lgrs().front() + ")",
                     "write the result on the global grid; refined cells are not read");
     }
-    if (grid.is_radial())
-      return refuse(files_.grid, "is a radial grid", "corner-point grids are read");
+    if (grid.is_radial()) return refuse(files_.grid, "is a radial grid", "use a corner-point grid");
     const EclipseGrid arrays = read_eclipse_grid(files_.grid);
     const double metre = take_length(arrays);
     if (arrays.is_on_map)
@@ -136,7 +135,7 @@ class EclipseReader : EclipseProblems {
   double take_length(const EclipseGrid& arrays) {
     if (!arrays.length_unit.empty() && !eclipse_metre(arrays.length_unit)) {
       refuse(files_.grid, "GRIDUNIT says \"" + arrays.length_unit + "\"",
-             "METRES, FEET and CM are known; mend GRIDUNIT in the flow model");
+             "METRES, FEET and CM are known; correct GRIDUNIT in the flow model");
     }
     const EclipseLength length = eclipse_length(arrays, depth_ratio(arrays));
     if (!length.remark.empty()) notes_.push_back("has a grid of doubtful unit: " + length.remark);
@@ -146,8 +145,7 @@ class EclipseReader : EclipseProblems {
   void say_on_map(const EGrid& grid) {
     if (grid.get_mapaxes().size() < 6) return;
     notes_.emplace_back(
-        "has coordinates of the map already (GRIDUNIT says MAP): the MAPAXES of its grid are not "
-        "applied");
+        "already has map coordinates (GRIDUNIT says MAP): the MAPAXES of its grid are not applied");
   }
 
   /// A point on the grid's y axis, its origin, a point on its x axis, on the map.
@@ -163,9 +161,9 @@ class EclipseReader : EclipseProblems {
     constexpr double kLeastSine = 0.99;  // of the angle between them: axes are at right angles
     const double sine = std::abs(x.x() * y.y() - x.y() * y.x()) / (x.norm() * y.norm());
     if (!(sine > kLeastSine)) {
-      return refuse(files_.grid,
-                    "has axes on the map (MAPAXES) that are not at right angles to each other",
-                    "mend MAPAXES in the flow model, or remove it and give the scene's \"origin\"");
+      return refuse(
+          files_.grid, "has axes on the map (MAPAXES) that are not at right angles to each other",
+          "correct MAPAXES in the flow model, or remove it and give the scene's \"origin\"");
     }
     axes_ = {point(2), x.normalized(), y.normalized()};
     say_moved();
@@ -179,7 +177,7 @@ class EclipseReader : EclipseProblems {
     const double azimuth = std::atan2(axes_.along_y.x(), axes_.along_y.y()) / kDegree;
     const double turn =
         axes_.along_x.x() * axes_.along_y.y() - axes_.along_x.y() * axes_.along_y.x();
-    notes_.push_back(concat("lies on the map where the MAPAXES of its grid say: its x = y = 0 at ",
+    notes_.push_back(concat("was placed on the map by the MAPAXES of its grid: its x = y = 0 at ",
                             formatted("%.7g m, %.7g m, its y along the azimuth %.4g deg",
                                       axes_.origin.x(), axes_.origin.y(), azimuth),
                             turn < 0 ? ", its x to the left of that" : ""));
@@ -220,10 +218,11 @@ class EclipseReader : EclipseProblems {
     if (head.size() <= kYear) return refuse(file, name + " has no date", "");
     const std::vector<float>& values = restart.getRestartData<float>(key, report);
     if (values.size() != cells_.size()) {
-      return refuse(file,
-                    concat(name, " is of another grid: it has ", values.size(), " values, and ",
-                           files_.grid.filename().string(), " ", cells_.size(), " active cells"),
-                    "keep the files of one run together");
+      return refuse(
+          file,
+          concat(name, " is from another grid: it has ", values.size(), " values, but ",
+                 files_.grid.filename().string(), " has ", cells_.size(), " active cells"),
+          "keep the files of one run together");
     }
     take_values(values, scale_of(head[kUnit], quantity_), name, file);
     take_date(head, name, file);
@@ -235,7 +234,7 @@ class EclipseReader : EclipseProblems {
       const double si = scale.of(values[i]);
       if (std::isfinite(si) && si >= 0) continue;
       return refuse(file, concat(name, " has the value ", values[i], " in active cell ", i + 1),
-                    "the values of all active cells are needed, and are absolute");
+                    "give absolute values for all active cells");
     }
     values_.push_back({values, scale});
   }

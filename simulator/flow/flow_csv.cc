@@ -33,7 +33,7 @@ class FlowTable {
       : reader_(text, given), is_pressure_(quantity == FlowQuantity::pressure) {
     const std::string unit = is_pressure_ ? " [bar]" : " [degC]";
     header_cure_ =
-        "head the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then "
+        "name the columns x [m], y [m], depth [m], dx [m], dy [m], dz [m], then "
         "1990-01-01" +
         unit + " and so on, or give a column date and one of " + name_of_value() + unit +
         "; depth and sizes may be left out (docs/your-field.md)";
@@ -64,7 +64,7 @@ class FlowTable {
     }
     if (date_column_ && columns[*date_column_].unit) {
       reader_.refuse(
-          table_quote(columns[*date_column_].text) + " counts from a day that is not said",
+          table_quote(columns[*date_column_].text) + " counts from a day that is not given",
           "write dates, in a column date without a unit: 1990-01-31");
     }
     if (date_column_)
@@ -80,7 +80,7 @@ class FlowTable {
     require_all_indices();
     note_what_is_not_used();
     if (column_[5] && !column_[kDepthColumn])
-      reader_.refuse("there is a column dz and none of depth", "add depth [m], or leave dz out");
+      reader_.refuse("there is a column dz but none of depth", "add depth [m], or leave dz out");
   }
 
   /// Places, then dates.
@@ -133,7 +133,7 @@ class FlowTable {
     const bool is_property = date_column_ && there.size() == 1;
     if (column_[kDepthColumn] && !is_property) {
       return reader_.refuse(
-          concat("has ", joined(there, " and "), " and no ", joined(missing, ", no ")),
+          concat("has ", joined(there, " and "), " but no ", joined(missing, ", no ")),
           "give all of i, j and k, by which cells are known, or none of them");
     }
     for (std::optional<std::size_t>& column : index_column_) {
@@ -153,7 +153,7 @@ class FlowTable {
         set_value_unit(i);
       } else if (columns[i].unit && is_length(*columns[i].unit)) {
         reader_.refuse(table_quote(columns[i].text) + " is none of x, y, depth, z, dx, dy and dz",
-                       "name it so, or remove it");
+                       "give it one of these names, or remove it");
       } else if (lower_case(columns[i].name) != other_value) {
         not_used_.push_back(i);
       }
@@ -202,7 +202,7 @@ class FlowTable {
                                                        "dy or dz"),
                    date_column_ ? "write dates as year-month-day, with or without a time of day: "
                                   "1990-01-31 or 1990-01-31 12:00"
-                                : "write dates as year-month-day, behind the columns of the place: "
+                                : "write dates as year-month-day, after the columns of the place: "
                                   "1990-01-31");
     return std::nullopt;
   }
@@ -213,7 +213,7 @@ class FlowTable {
     if (!date) return false;
     if (!reports_.empty() && *date <= reports_.back().date) {
       reader_.refuse("the date " + text + " does not come after the one before",
-                     "write the reports in the order of time, each once");
+                     "write the reports in order of time, each once");
       return false;
     }
     reports_.push_back({*date, text, {}});
@@ -262,7 +262,7 @@ class FlowTable {
       std::vector<double>& values = reports_[report.value_or(i)].values;
       if (values.size() <= cell) values.resize(cell + 1, kNone);
       if (!std::isnan(values[cell]))
-        return reader_.refuse("the cell is there twice", "give each cell one value per report");
+        return reader_.refuse("the cell is given twice", "give each cell one value per report");
       values[cell] = value.value_or(kNone);
     }
   }
@@ -295,10 +295,9 @@ class FlowTable {
     const std::string text = concat("i = ", i, ", j = ", j, ", k = ", k);
     if (is_new ? indices_.insert(*index).second : points_.indices[cell] == *index) return true;
     if (is_new) {
-      reader_.refuse("the cell " + text + " is there twice, at two places",
-                     "give each i, j, k one place");
+      reader_.refuse("the cell " + text + " is given at two places", "give each i, j, k one place");
     } else {
-      reader_.refuse("the cell has " + text + ", and others in a line before",
+      reader_.refuse("the cell has " + text + ", but others in an earlier line",
                      "give a place the same i, j and k at every date");
     }
     return false;
@@ -326,7 +325,7 @@ class FlowTable {
     if (above == points_.places.end()) return;
     reader_.refuse_at(points_.lines[static_cast<std::size_t>(above - points_.places.begin())],
                       "z is above 0: it counts upwards",
-                      "head the column depth [m] if it counts downwards");
+                      "name the column depth [m] if it counts downwards");
   }
 
   FlowField result() {

@@ -111,7 +111,7 @@ std::string pressure_doubt(const FlowField& field) {
   if (*middle >= kFarBelow && *middle <= kFarAbove) return "";
   return formatted(
       "the first report's pressures are %.3g times hydrostatic (median over cells); %s, and depths "
-      "in another unit look so too: check the units in the header",
+      "in another unit look the same: check the units in the header",
       *middle,
       *middle > kFarAbove ? "psi read as bar is 14.5 times too high"
                           : "bar read as psi is 14.5 times too low");

@@ -150,7 +150,7 @@ FlowOverlaps flow_overlaps(const FlowField& field, const std::vector<MappedCell>
     const double sum = overlaps_of(cell, field, search, all.emplace_back());
     if (sum > (1 + kTwice) * cell_volume(cell.corners)) {
       throw InputError(
-          "flow field", "flow cells lie over each other at " + where(cell),
+          "flow field", "flow cells overlap at " + where(cell),
           "give every place one cell: layers of a grid (ZCORN) below each other, no refined "
           "parents; a table of points of a grid whose pillars lean needs its columns i, j and k");
     }

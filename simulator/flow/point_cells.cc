@@ -79,9 +79,9 @@ class PointCellMaker {
     if (!uneven_.empty()) {
       result_.notes.insert(
           result_.notes.begin(),
-          "has points that are not equally far from each other along " + joined(uneven_, ", ") +
+          "has points that are not equally spaced along " + joined(uneven_, ", ") +
               ": its cells are those that lie side by side with a point in the middle of each, or "
-              "reach half way to the next point");
+              "reach halfway to the next point");
     }
     return std::move(result_);
   }
@@ -151,7 +151,7 @@ class PointCellMaker {
     result_.point = std::move(cells.point);
     if (uses_neighbours && (has(kDx) || has(kDy))) {
       result_.notes.emplace_back(
-          "has sizes dx and dy that are not used: cells reach half way to those beside them");
+          "has sizes dx and dy that are not used: cells reach halfway to those beside them");
     }
   }
 
@@ -175,21 +175,21 @@ class PointCellMaker {
     const TablePoints::Place& first = points_.places[0];
     ColumnGrid grid = indexed_columns(cells, {first[kDx], first[kDy]}, corner);
     if (grid.columns.empty()) {
-      return reader_.refuse_at(points_.lines[0],
-                               "no two cells follow each other along i, or none along j: how wide "
-                               "they are is not known",
-                               "add columns dx [m] and dy [m], or leave i, j, k out");
+      return reader_.refuse_at(
+          points_.lines[0],
+          "no two cells follow each other along i, or none along j: their width "
+          "is not known",
+          "add columns dx [m] and dy [m], or leave i, j, k out");
     }
     if (!has(kDz) && !has_layers(grid)) {
-      return reader_.refuse_at(points_.lines[0],
-                               "no two cells follow each other along k: how thick they are is not "
-                               "known",
-                               "add a column dz [m]");
+      return reader_.refuse_at(
+          points_.lines[0], "no two cells follow each other along k: their thickness is not known",
+          "add a column dz [m]");
     }
     add_columns(grid, !is_plain);
-    result_.notes.push_back(concat(
-        "has i, j, k: ", grid.columns.size(),
-        " columns of cells, whose corners lie half way between the centres beside each other"));
+    result_.notes.push_back(
+        concat("has i, j, k: ", grid.columns.size(),
+               " columns of cells, whose corners lie halfway between neighbouring centres"));
   }
 
   static bool has_layers(const ColumnGrid& grid) {
@@ -286,22 +286,21 @@ class PointCellMaker {
       places[static_cast<std::size_t>(number)] = {at[0], at[1]};
     const NearestAreas areas = nearest_areas(places);
     if (areas.area.empty()) {
-      return reader_.refuse_at(points_.lines[0],
-                               "all points lie on one line in the plan: how wide their cells are "
-                               "is not known",
-                               "add columns dx [m] and dy [m]");
+      return reader_.refuse_at(
+          points_.lines[0],
+          "all points lie on one line in plan: the width of their cells is not known",
+          "add columns dx [m] and dy [m]");
     }
     for (std::size_t i = 0; reader_.is_sound() && i < points_.places.size(); ++i) {
       const auto& base = areas.area[static_cast<std::size_t>(column_[i])];
       add_prisms(base, -depth[i][1], -depth[i][0], result_.cells);
       result_.point.resize(result_.cells.size(), i);
     }
-    result_.notes.insert(
-        result_.notes.begin(),
-        concat(
-            "has points at ", places.size(),
-            " places that are no grid along x and y: each holds where it is the nearest one, to ",
-            formatted("%.3g", areas.rim), " m beyond their outline"));
+    result_.notes.insert(result_.notes.begin(),
+                         concat("has points at ", places.size(),
+                                " places that are not a grid along x and y: each holds where it is "
+                                "the nearest one, to ",
+                                formatted("%.3g", areas.rim), " m beyond their outline"));
   }
 
   const TablePoints& points_;

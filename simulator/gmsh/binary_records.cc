@@ -56,7 +56,7 @@ std::int64_t BinaryRecords::count() {
 double BinaryRecords::real() {
   const auto value = take<double>();
   if (std::isfinite(value)) return value;
-  refuse("mesh anew; the geometry may have a place that is no number",
+  refuse("mesh again; the geometry may have a coordinate that is not a number",
          [&] { return concat(value, " is not a finite number (expected: ", form_, ')'); });
   return 0;
 }

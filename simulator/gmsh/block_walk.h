@@ -30,12 +30,12 @@ bool walk_blocks(Records& records, FileProblems& problems, const char* section, 
   if (!is_all) {
     problems.add(head, kSaveAnew, [&] {
       return concat(section, " says ", counted(n_blocks, "block", "blocks"), " with ",
-                    counted(n_things, one, many), " in all, and has ", blocks, " with ", n);
+                    counted(n_things, one, many), " in all, but has ", blocks, " with ", n);
     });
   }
   if (!records.next("nothing")) return is_all;
   problems.add(records.place(), kSaveAnew,
-               [&] { return concat(section, " goes on behind its last block"); });
+               [&] { return concat(section, " continues after its last block"); });
   return false;
 }
 
@@ -43,7 +43,7 @@ bool walk_blocks(Records& records, FileProblems& problems, const char* section, 
 inline void add_short_block(FileProblems& problems, int head, std::int64_t n_said,
                             std::int64_t n_there, const char* one, const char* many) {
   problems.add(head, kSaveAnew, [&] {
-    return concat("the block says ", counted(n_said, one, many), ", and ", n_there, " follow");
+    return concat("the block says ", counted(n_said, one, many), ", but ", n_there, " follow");
   });
 }
 

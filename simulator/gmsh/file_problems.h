@@ -54,6 +54,6 @@ class FileProblems {
 inline constexpr const char* kSaveAsMsh41 =
     "save the mesh in the format MSH 4.1: gmsh -format msh41, or Mesh.MshFileVersion = 4.1";
 inline constexpr const char* kSaveAnew =
-    "save the mesh with Gmsh and copy it anew; the file is cut off, damaged or changed by hand";
+    "save the mesh with Gmsh and copy it again; the file is cut off, damaged or changed by hand";
 
 }  // namespace faultsim

@@ -56,9 +56,9 @@ class MeshAssembly {
  private:
   void check_nodes() {
     for (const auto& [node, before] : index_.repeated()) {
-      problems_.add(place_of(node), "number nodes anew (RenumberMeshNodes) and save the mesh",
+      problems_.add(place_of(node), "renumber the nodes (RenumberMeshNodes) and save the mesh",
                     [&, i = node, other = before] {
-                      return concat("node ", tag_of(i), " is there twice, first at ",
+                      return concat("node ", tag_of(i), " is given twice, first at ",
                                     problems_.name_of(place_of(other)));
                     });
     }
@@ -166,11 +166,12 @@ class MeshAssembly {
       if (is_corner_[static_cast<std::size_t>(node)] != 0) continue;
       problems_.add(block.places[i],
                     "make the surface one of the volumes' (BooleanFragments), or embed it "
-                    "(Surface{...} In Volume{...}), and mesh anew",
+                    "(Surface{...} In Volume{...}), and mesh again",
                     [&] {
                       const std::int64_t group = groups_.of(2, block.entity)[0];
                       return concat(name_of(block, i), " of ", table_quote(groups_.name(2, group)),
-                                    " has node ", tag_of(node), ", which is no corner of a cell");
+                                    " has node ", tag_of(node),
+                                    ", which is not a corner of a cell");
                     });
       return;
     }
@@ -199,8 +200,8 @@ class MeshAssembly {
                                        static_cast<std::size_t>(block.kind->n_corners));
     for (std::size_t k = 1; k < corners.size(); ++k) {
       if (!contains(corners.first(k), corners[k])) continue;
-      problems_.add(block.places[i], "mesh anew, with geometry that has no doubles (Coherence)",
-                    [&] {
+      problems_.add(block.places[i],
+                    "remove duplicates from the geometry (Coherence) and mesh again", [&] {
                       return concat(name_of(block, i), " has node ", tag_of(corners[k]),
                                     " at two of its corners");
                     });

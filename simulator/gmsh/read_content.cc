@@ -39,17 +39,18 @@ void read_names(TextRecords& lines, FileProblems& problems, GmshContent& content
     }
     const std::string name(quoted.substr(1, quoted.size() - 2));
     if (const std::string odd = first_unprintable(name); !odd.empty()) {
-      refuse(" holds \"" + odd + "\", which is not a character of a text");
+      refuse(" contains \"" + odd + "\", which is not a text character");
       continue;
     }
     if (name.empty()) continue;  // the group is called by its number
     auto& names = content.names[static_cast<std::size_t>(dimension)];
     if (!names.emplace(number, PhysicalName{name, lines.place()}).second)
-      refuse(concat(" names a group that has a name, at ", problems.name_of(names[number].place)));
+      refuse(concat(" names a group that already has a name, at ",
+                    problems.name_of(names[number].place)));
   }
   if (!has_head || n_lines == n_names) return;
   problems.add(head, kSaveAnew, [&] {
-    return concat("$PhysicalNames says ", counted(n_names, "name", "names"), " and has ", n_lines);
+    return concat("$PhysicalNames says ", counted(n_names, "name", "names"), " but has ", n_lines);
   });
 }
 
@@ -78,14 +79,14 @@ class EntityReader {
       if (n == wanted[dimension]) continue;
       problems_.add(head, kSaveAnew, [&] {
         return concat("$Entities says ",
-                      counted(wanted[dimension], kOne[dimension], kMany[dimension]), " and has ",
+                      counted(wanted[dimension], kOne[dimension], kMany[dimension]), " but has ",
                       n);
       });
       return false;
     }
     if (!records_.next("nothing")) return is_whole_;
     problems_.add(records_.place(), kSaveAnew,
-                  [] { return "$Entities goes on behind its last volume"; });
+                  [] { return "$Entities continues after its last volume"; });
     return false;
   }
 
@@ -122,7 +123,7 @@ class EntityReader {
     if (known.second) return;
     problems_.add(one.place, kSaveAnew, [&] {
       const int first = known.first->second.place;
-      return concat(name, " is there twice, first at ", problems_.name_of(first));
+      return concat(name, " is given twice, first at ", problems_.name_of(first));
     });
   }
 

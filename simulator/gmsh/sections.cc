@@ -81,7 +81,7 @@ class SectionSplitter {
   void outside(std::string_view line) {
     problems_.add(place(), kEndCure, [&] {
       return line.front() == '$' ? table_quote(line) + " ends a section that has not begun"
-                                 : table_quote(line) + " stands outside of all sections";
+                                 : table_quote(line) + " is outside all sections";
     });
     const std::size_t next = line_with("$", at_ + 1);
     go_on_at(next == kNowhere ? text_.size() : next);
@@ -158,7 +158,7 @@ class SectionSplitter {
 bool is_swapped(std::string_view body, const std::string& source) {
   if (body.substr(0, 4) == std::string_view("\1\0\0\0", 4)) return false;
   if (body.substr(0, 4) == std::string_view("\0\0\0\1", 4)) return true;
-  refuse_form(source, 0, "the number 1, which tells the order of bytes, is not there", kSaveAnew);
+  refuse_form(source, 0, "the number 1, which shows the order of bytes, is missing", kSaveAnew);
 }
 
 }  // namespace
@@ -192,7 +192,7 @@ FileForm read_file_form(std::string_view text, const std::string& source) {
   if (size != 8) {
     refuse_form(source, words.place(),
                 concat("numbers of ", size, " bytes are not read, those of 8 are"),
-                "save the mesh with Gmsh on a computer of 64 bits");
+                "save the mesh with Gmsh on a 64-bit computer");
   }
   if (type == 0) return {};
   return {true, is_swapped(behind_line(text, words.line()), source)};

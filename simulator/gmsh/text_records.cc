@@ -115,7 +115,7 @@ void TextRecords::skip(int n_numbers) {
 
 bool TextRecords::is_whole() {
   if (is_sound_ && !rest_of_line().empty())
-    refuse([&] { return concat(table_quote(text_), " holds more than ", form_); });
+    refuse([&] { return concat(table_quote(text_), " contains more than ", form_); });
   return is_sound_;
 }
 

@@ -59,7 +59,7 @@ void join_parts(const GridStructure& structure, const ModelLines& lines,
     if (problem == problems.end()) continue;
     remarks.push_back({RemarkKind::left_out,
                        number_of(structure, found[c].source) +
-                           " is part of another one in the model, as no line parts them",
+                           " is part of another one in the model, as no line separates them",
                        "--extend-faults, /geometry/dividers"});
     found.erase(found.begin() + static_cast<std::ptrdiff_t>(c));
   }

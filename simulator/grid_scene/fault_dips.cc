@@ -130,7 +130,7 @@ std::string dips_text(const std::vector<FaultPillar>& pillars, const ModelFault&
     return fault.name + " has one dip, " + taken + " degrees, the median of its pillars' (" +
            measured + "), which are " + formatted("%.0f m", away) +
            " from it at the reservoir's top and base on average: with dips that change along it "
-           "pillars would cross, or be hardly nearer";
+           "pillars would cross, or hardly be nearer";
   }
   ModelFault plain = fault;
   take_dips(pillars, 0, reference_z, plain);

@@ -198,7 +198,7 @@ void SceneMaker::add_geometry() {
   for (const ModelDivider& one : lines.dividers)
     geometry["dividers"].push_back({{"name", one.name}, {"line", places(one.line)}});
   say(RemarkKind::choice,
-      "beside the active map the reservoir's rock goes on, held at the depth of its edge, without "
+      "beside the active map the reservoir's rock continues at the depth of its edge, without "
       "pressure changes",
       "/geometry/layers, \"outside\"");
 }

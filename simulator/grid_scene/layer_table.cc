@@ -12,7 +12,7 @@ namespace faultsim::grid_scene {
 namespace {
 
 constexpr const char* kCure =
-    "head the columns name, top [m], density [kg/m3], youngs_modulus [GPa], poisson_ratio; one "
+    "name the columns name, top [m], density [kg/m3], youngs_modulus [GPa], poisson_ratio; one "
     "layer is called reservoir";
 constexpr const char* kReservoir = "reservoir";
 
@@ -43,7 +43,7 @@ class LayerTable {
     for (std::size_t i = 0; i < reader_.columns().size(); ++i) {
       const auto known = std::ranges::find(kNames, reader_.columns()[i].name);
       if (known == kNames.end()) {
-        reader_.refuse(table_quote(reader_.columns()[i].text) + " is not a column of layers",
+        reader_.refuse(table_quote(reader_.columns()[i].text) + " is not a column of a layer table",
                        kCure);
         continue;
       }
@@ -66,7 +66,7 @@ class LayerTable {
   void take_row() {
     RockLayer layer{.name = std::string(reader_.cell(*column_[0]))};
     if (layer.name.empty() || contains(layers_.all, layer.name, &RockLayer::name))
-      reader_.refuse(table_quote(layer.name) + " is no name of its own for a layer", kCure);
+      reader_.refuse(table_quote(layer.name) + " is not a unique name for a layer", kCure);
     const std::array<double*, 3> into = {&layer.top, &layer.density, &layer.youngs_modulus};
     for (std::size_t k = 0; k < into.size(); ++k) {
       if (const std::optional<double> value = reader_.value(*column_[k + 1])) *into[k] = *value;
@@ -74,7 +74,7 @@ class LayerTable {
     const std::string_view poisson = reader_.cell(*column_[4]);
     layer.poisson_ratio = parse_number(poisson).value_or(-1);
     if (!(layer.poisson_ratio >= 0 && layer.poisson_ratio <= 0.4999))
-      reader_.refuse(table_quote(poisson) + " is no Poisson's ratio", "write 0 to 0.4999");
+      reader_.refuse(table_quote(poisson) + " is not a Poisson's ratio", "write 0 to 0.4999");
     layers_.all.push_back(std::move(layer));
     lines_.push_back(reader_.line());
   }
@@ -84,8 +84,7 @@ class LayerTable {
     layers_.reservoir = static_cast<std::size_t>(at - layers_.all.begin());
     if (at == layers_.all.end() || layers_.reservoir == 0 ||
         layers_.reservoir + 1 == layers_.all.size())
-      return reader_.refuse_at(0,
-                               "the layers have none called reservoir with others above and below",
+      return reader_.refuse_at(0, "no layer is called reservoir, with others above and below",
                                "add it, with the rock of the flow grid's cells");
     if (layers_.all.front().top != 0)
       reader_.refuse_at(lines_.front(), "the first layer begins below the surface",
@@ -97,7 +96,7 @@ class LayerTable {
       const bool is_above = k < layers_.reservoir;
       if (layer.top <= above)
         reader_.refuse_at(lines_[k],
-                          table_quote(layer.name) + " does not begin below the layer before",
+                          table_quote(layer.name) + " does not begin below the layer before it",
                           "order layers from the surface down");
       if (is_above && layer.top >= shallowest)
         reader_.refuse_at(

@@ -239,7 +239,7 @@ TEST(PaintedSection, SaysWhereFlowCellsLieOverEachOther) {
   const CaseResult result = small_result();
   const std::string svg =
       draw_case({result, scene, nullptr, {}}, {CaseChart::section, {}, 2, false});
-  EXPECT_THAT(svg, HasSubstr(">pressures are not painted: flow cells lie over each other"));
+  EXPECT_THAT(svg, HasSubstr(">pressures are not painted: flow cells overlap"));
   EXPECT_THAT(svg, Not(HasSubstr("data-painted")));
 }
 

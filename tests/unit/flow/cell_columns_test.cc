@@ -120,7 +120,7 @@ TEST(CellColumns, ArePlaneLayersOnLeaningPillarsAgain) {
   const FlowField field = read(cells, kIndexed, index_of);
   EXPECT_LT(most_off(field, cells), 1e-6);
   EXPECT_THAT(field.notes, ElementsAre(AllOf(HasSubstr("has i, j, k: 48 columns of cells"),
-                                             HasSubstr("half way between the centres"))));
+                                             HasSubstr("halfway between neighbouring centres"))));
 }
 
 TEST(CellColumns, KeepTheDepthsOfBothSidesOfAFault) {
@@ -188,7 +188,7 @@ TEST(CellColumns, OfOneLayerWantItsThickness) {
   EXPECT_LT(most_off(read(straight, kIndexed + ", dz [m]", with_dz), straight), 1e-6);
   EXPECT_THAT([&] { read(cells, kIndexed, index_of); },
               testing::ThrowsMessage<InputError>(HasSubstr(
-                  "no two cells follow each other along k: how thick they are is not known; add a "
+                  "no two cells follow each other along k: their thickness is not known; add a "
                   "column dz [m]")));
 }
 
@@ -339,15 +339,14 @@ TEST(CellColumns, AreRefusedWhereIndicesCannotBeMeant) {
                           "1, one, 3, 0, 0, 2010, 9\n"),
               AllOf(HasSubstr("points.csv:3: k is 1.5; write i, j and k as whole numbers"),
                     HasSubstr("points.csv:4:")));
+  EXPECT_THAT(why_refused(kIndexed + values + "1, 1, 1, 0, 0, 2000, 9\n1, 1, 1, 0, 0, 2010, 9\n"),
+              HasSubstr("points.csv:3: the cell i = 1, j = 1, k = 1 is given at two places"));
   EXPECT_THAT(
-      why_refused(kIndexed + values + "1, 1, 1, 0, 0, 2000, 9\n1, 1, 1, 0, 0, 2010, 9\n"),
-      HasSubstr("points.csv:3: the cell i = 1, j = 1, k = 1 is there twice, at two places"));
-  EXPECT_THAT(why_refused("date, " + kIndexed +
-                          ", pressure [bar]\n"
-                          "1990-01-01, 1, 1, 1, 0, 0, 2000, 9\n"
-                          "1991-01-01, 1, 1, 2, 0, 0, 2000, 9\n"),
-              HasSubstr("points.csv:3: the cell has i = 1, j = 1, k = 2, and others in a line "
-                        "before"));
+      why_refused("date, " + kIndexed +
+                  ", pressure [bar]\n"
+                  "1990-01-01, 1, 1, 1, 0, 0, 2000, 9\n"
+                  "1991-01-01, 1, 1, 2, 0, 0, 2000, 9\n"),
+      HasSubstr("points.csv:3: the cell has i = 1, j = 1, k = 2, but others in an earlier line"));
   EXPECT_THAT(why_refused(kIndexed + values + "1, 1, 1, 0, 0, 2000, 9\n1, 1, 2, 0, 0, 2010, 9\n"),
               HasSubstr("is not known"));
 }

@@ -138,7 +138,7 @@ TEST(EclipseLength, IsThatOfGridunitAndInteheadWhereTheyAgree) {
   EXPECT_EQ(eclipse_length({.length_unit = "CM", .unit_system = 3}, {}).metre, 0.01);
   EXPECT_EQ(eclipse_length({.unit_system = 2}, 1).metre, 0.3048);
   EXPECT_EQ(eclipse_length({.length_unit = "FEET", .unit_system = 2}, 1).remark, "");
-  EXPECT_THAT(eclipse_length({}, {}).remark, HasSubstr("metres were taken"));
+  EXPECT_THAT(eclipse_length({}, {}).remark, HasSubstr("metres were assumed"));
 }
 
 TEST(EclipseLength, IsThatOfInteheadWhereTheyContradictEachOther) {
@@ -147,7 +147,7 @@ TEST(EclipseLength, IsThatOfInteheadWhereTheyContradictEachOther) {
   EXPECT_EQ(eclipse_length(grid, {}).remark,
             "GRIDUNIT says METRES, INTEHEAD of CASE.INIT FIELD: lengths were taken as feet");
   EXPECT_EQ(eclipse_length(grid, 1.002).metre, 0.3048);
-  EXPECT_THAT(eclipse_length(grid, 1.002).remark, HasSubstr("depths of the cells (DEPTH) agree"));
+  EXPECT_THAT(eclipse_length(grid, 1.002).remark, HasSubstr("cells' depths (DEPTH) agree"));
   // Depths in feet beside a grid in metres: then GRIDUNIT is right.
   EXPECT_EQ(eclipse_length(grid, 3.2808).metre, 1);
   EXPECT_EQ(eclipse_length(grid, 2).metre, 0.3048);

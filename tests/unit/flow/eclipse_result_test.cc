@@ -220,7 +220,7 @@ TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
     const FlowField there = read();
     ASSERT_EQ(there.cells.size(), own.cells.size());
     EXPECT_THAT(there.notes,
-                ElementsAre("lies on the map where the MAPAXES of its grid say: its x = y = 0 at "
+                ElementsAre("was placed on the map by the MAPAXES of its grid: its x = y = 0 at "
                             "10000 m, 20000 m, its y along the azimuth -90 deg"));
     for (std::size_t f = 0; f < own.cells.size(); ++f) {
       EXPECT_NEAR(there.cells[f].low.x(), 10000 - own.cells[f].high.y(), 0.01);
@@ -231,7 +231,7 @@ TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
   }
   write_grid({.map_axes = turned, .map_unit = "METRES", .relative_to = "MAP"});
   EXPECT_EQ(read().cells[3].low, own.cells[3].low);
-  EXPECT_THAT(read().notes, ElementsAre(HasSubstr("has coordinates of the map already")));
+  EXPECT_THAT(read().notes, ElementsAre(HasSubstr("already has map coordinates")));
   write_grid({.map_axes = {0, 1, 0, 0, 1, 0}, .map_unit = "METRES"});
   EXPECT_EQ(read().cells[3].low, own.cells[3].low);
   EXPECT_THAT(read().notes, IsEmpty());
@@ -309,7 +309,7 @@ TEST_F(EclipseResult, IsRefusedWithWhatIsWrong) {
   write_grid({});
   refused("there is no restart file");
   write_restart({}, 12);
-  refused("is of another grid: it has 12 values, and CASE.EGRID 11 active cells");
+  refused("is from another grid: it has 12 values, but CASE.EGRID has 11 active cells");
   write_restart({.dates = {{1, 1, 1991}, {1, 1, 1990}}});
   refused("report 1 of 1990-01-01 does not come after the one before, of 1991-01-01");
   write_restart({.to_pressure = -1});

@@ -78,7 +78,7 @@ TEST(FlowCsv, RefusesTimeThatGoesBackwardsAndCellsThatAreMissing) {
               HasSubstr("1 of 2 cells are missing at 1991-01-01"));
   EXPECT_THAT(refusal(long_form(first + other + later)),
               HasSubstr("1 of 2 cells are missing at 1991-01-01"));
-  EXPECT_THAT(refusal(long_form(first + first)), HasSubstr("flow.csv:3: the cell is there twice"));
+  EXPECT_THAT(refusal(long_form(first + first)), HasSubstr("flow.csv:3: the cell is given twice"));
 }
 
 TEST(FlowCsv, RefusesHeadersThatDoNotSayWhatIsThere) {

@@ -178,7 +178,7 @@ TEST(FlowMapping, RefusesCellsOverEachOther) {
   field.value.conservativeResize(9, 2);
   EXPECT_THAT(
       ([&] { map_flow(field, two_sides(2, 1), kNames, {.outside = OutsideRule::nearest}); }),
-      ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
+      ThrowsMessage<InputError>(HasSubstr("flow cells overlap at x = ")));
 }
 
 TEST(FlowMapping, SaysTheSharesThatAreCovered) {

@@ -173,7 +173,7 @@ TEST(FlowHexahedra, AreMappedAndRefusedWhereTheyLieOverEachOther) {
   field.cells[40] = flow_cell_around(*field.cells[40].corners);
   EXPECT_THAT(
       ([&] { map_flow(field, inner_cells(3, 0.1), {"west"}, {.outside = OutsideRule::nearest}); }),
-      ThrowsMessage<InputError>(HasSubstr("flow cells lie over each other at x = ")));
+      ThrowsMessage<InputError>(HasSubstr("flow cells overlap at x = ")));
 }
 
 TEST(FlowCellSearch, FindsWhatLookingAtAllFinds) {

@@ -67,7 +67,7 @@ TEST(PointTables, MayBeRectilinear) {
   ASSERT_EQ(field.cells.size(), 8U);
   EXPECT_EQ(field.cells[2].low.head<2>(), Eigen::Vector2d(200, -30));
   EXPECT_EQ(field.cells[2].high.head<2>(), Eigen::Vector2d(400, 30));
-  EXPECT_THAT(field.notes, ElementsAre(HasSubstr("not equally far from each other along x"),
+  EXPECT_THAT(field.notes, ElementsAre(HasSubstr("not equally spaced along x"),
                                        "has no depth: its values hold at all depths"));
 }
 
@@ -105,11 +105,11 @@ TEST(PointTables, AreReadAsTheyAreExported) {
 
 TEST(PointTables, AreRefusedWhereTheyCannotBeMeant) {
   EXPECT_THAT(refusal_of("x [m], y [m], z [m], 1990-01-01 [bar]\n0, 0, 2000, 9\n"),
-              HasSubstr("points.csv:2: z is above 0: it counts upwards; head the column depth"));
+              HasSubstr("points.csv:2: z is above 0: it counts upwards; name the column depth"));
   EXPECT_THAT(refusal_of("x [m], y [m], z [m], depth [m], 1990-01-01 [bar]\n"),
               HasSubstr("columns of z and of depth"));
   EXPECT_THAT(refusal_of("time [year], x [m], y [m], pressure [bar]\n"),
-              HasSubstr("\"time [year]\" counts from a day that is not said; write dates"));
+              HasSubstr("\"time [year]\" counts from a day that is not given; write dates"));
   EXPECT_THAT(refusal_of("date, x [m], y [m], depht [m], pressure [bar]\n"),
               HasSubstr("\"depht [m]\" is none of x, y, depth, z"));
   EXPECT_THAT(refusal_of("x [m], y [m], depth [m], 1990-01-01 [bar]\n0, 0, 2000, 9\n7, 3, 2010, "
@@ -118,7 +118,7 @@ TEST(PointTables, AreRefusedWhereTheyCannotBeMeant) {
                         "y"));
   std::string row = "x [m], y [m], 1990-01-01 [bar]\n";
   for (const double i : {0., 1., 3., 4., 7., 9.}) row += concat(i, ", ", 2 * i + 1, ", 300\n");
-  EXPECT_THAT(refusal_of(row), HasSubstr("all points lie on one line in the plan"));
+  EXPECT_THAT(refusal_of(row), HasSubstr("all points lie on one line in plan"));
 }
 
 Eigen::Vector2d turned(double x, double y, double angle) {
@@ -206,7 +206,7 @@ TEST(PointTables, OfATurnedGridGiveWhatItsCellsGive) {
   }
   const FlowField of_boxes = parse_flow_csv(boxes, "boxes");
   const FlowField cloud = parse_flow_csv(points, "points");
-  EXPECT_THAT(cloud.notes, ElementsAre(HasSubstr("has points at 121 places that are no grid")));
+  EXPECT_THAT(cloud.notes, ElementsAre(HasSubstr("has points at 121 places that are not a grid")));
   EXPECT_THAT(of_boxes.notes, IsEmpty());
   const FlowField of_points = placed(cloud, {0, 0}, kAngle);
   const MappedCell body{.corners = between_sides({-333, -300}, {210, 250}, 1995, 2033, 444),

@@ -62,17 +62,18 @@ TEST(GmshBlocks, RefusesLinesThatAreTooShortOrTooLong) {
   EXPECT_EQ(refusal_with("\n0 1 0 \n", "\n0 1 \n"),
             "mesh.msh:28: \"0 1\" ends too early for x, y and z" + kLine);
   EXPECT_EQ(refusal_with("\n0 1 0 \n", "\n0 1 0 7\n"),
-            "mesh.msh:28: \"0 1 0 7\" holds more than x, y and z" + kLine);
+            "mesh.msh:28: \"0 1 0 7\" contains more than x, y and z" + kLine);
   EXPECT_EQ(refusal_with("\n3 2 3 4 5 \n", "\n3 2 3 4 \n"),
             "mesh.msh:41: \"3 2 3 4\" ends too early for the tag of an element and those of its 4 "
             "nodes" +
                 kLine);
-  EXPECT_EQ(refusal_with("\n3 2 3 4 5 \n", "\n3 2 3 4 5 6\n"),
-            "mesh.msh:41: \"3 2 3 4 5 6\" holds more than the tag of an element and those of its 4 "
-            "nodes" +
-                kLine);
+  EXPECT_EQ(
+      refusal_with("\n3 2 3 4 5 \n", "\n3 2 3 4 5 6\n"),
+      "mesh.msh:41: \"3 2 3 4 5 6\" contains more than the tag of an element and those of its 4 "
+      "nodes" +
+          kLine);
   EXPECT_EQ(refusal_with("\n5 \n", "\n5 5\n"),
-            "mesh.msh:31: \"5 5\" holds more than the tag of a node" + kLine);
+            "mesh.msh:31: \"5 5\" contains more than the tag of a node" + kLine);
   EXPECT_EQ(refusal_with("1 1 1 2 \n", "1 1 1\n"),
             "mesh.msh:11: \"1 1 1\" ends too early for the numbers of points, curves, surfaces and "
             "volumes" +
@@ -102,8 +103,8 @@ TEST(GmshBlocks, RefusesNumbersThatAreNoneInBinary) {
   const std::size_t tag = begin_of("Nodes") + 32 + 52 + 116 + 20, x = tag + 8;
   EXPECT_EQ(refusal(with_number(sound_binary(), x + 8, std::numeric_limits<double>::infinity())),
             at_byte(x) +
-                "inf is not a finite number (expected: x, y and z); mesh anew; the geometry may "
-                "have a place that is no number");
+                "inf is not a finite number (expected: x, y and z); mesh again; the geometry may "
+                "have a coordinate that is not a number");
   EXPECT_EQ(refusal(with_number(sound_binary(), tag, ~std::uint64_t{0})),
             at_byte(tag) +
                 "18446744073709551615 is more than 9223372036854775807 (expected: the tag of a "
@@ -113,34 +114,34 @@ TEST(GmshBlocks, RefusesNumbersThatAreNoneInBinary) {
 
 TEST(GmshBlocks, RefusesCountsThatDoNotAgree) {
   EXPECT_EQ(refusal_with("\n3 5 1 5 \n", "\n3 6 1 5 \n"),
-            "mesh.msh:19: $Nodes says 3 blocks with 6 nodes in all, and has 3 with 5" + kAnew);
+            "mesh.msh:19: $Nodes says 3 blocks with 6 nodes in all, but has 3 with 5" + kAnew);
   EXPECT_EQ(refusal_with("\n3 5 1 5 \n", "\n4 5 1 5 \n"),
-            "mesh.msh:19: $Nodes says 4 blocks with 5 nodes in all, and has 3 with 5" + kAnew);
+            "mesh.msh:19: $Nodes says 4 blocks with 5 nodes in all, but has 3 with 5" + kAnew);
   EXPECT_EQ(refusal_with("\n3 5 1 5 \n", "\n1 1 1 5 \n"),
-            "mesh.msh:23: $Nodes goes on behind its last block" + kAnew);
+            "mesh.msh:23: $Nodes continues after its last block" + kAnew);
   EXPECT_EQ(
       refusal_with("\n3 3 1 3 \n", "\n3 2 1 3 \n"),
-      "mesh.msh:35: $Elements says 3 blocks with 2 elements in all, and has 3 with 3" + kAnew);
+      "mesh.msh:35: $Elements says 3 blocks with 2 elements in all, but has 3 with 3" + kAnew);
   EXPECT_EQ(refusal_with("\n3 2 3 4 5 \n", "\n3 2 3 4 5 \n4 1 2 3 5 \n"),
-            "mesh.msh:42: $Elements goes on behind its last block" + kAnew);
+            "mesh.msh:42: $Elements continues after its last block" + kAnew);
   EXPECT_EQ(refusal_with("\n3 2 4 1 \n", "\n3 2 4 2 \n"),
-            "mesh.msh:35: $Elements says 3 blocks with 3 elements in all, and has 3 with 4" +
-                kAnew + "\nmesh.msh:40: the block says 2 tetrahedra, and 1 follow" + kAnew);
+            "mesh.msh:35: $Elements says 3 blocks with 3 elements in all, but has 3 with 4" +
+                kAnew + "\nmesh.msh:40: the block says 2 tetrahedra, but 1 follow" + kAnew);
   EXPECT_EQ(refusal_with("1 1 1 2 \n", "1 1 1 3 \n"),
-            "mesh.msh:11: $Entities says 3 volumes and has 2" + kAnew);
+            "mesh.msh:11: $Entities says 3 volumes but has 2" + kAnew);
   EXPECT_EQ(refusal_with("1 1 1 2 \n", "1 1 1 1 \n"),
-            "mesh.msh:16: $Entities goes on behind its last volume" + kAnew);
+            "mesh.msh:16: $Entities continues after its last volume" + kAnew);
   EXPECT_EQ(refusal_with("\n3\n2 4 \"fault\"", "\n4\n2 4 \"fault\""),
-            "mesh.msh:5: $PhysicalNames says 4 names and has 3" + kAnew);
+            "mesh.msh:5: $PhysicalNames says 4 names but has 3" + kAnew);
 }
 
 TEST(GmshBlocks, RefusesCountsThatDoNotAgreeInBinary) {
   const std::size_t nodes = begin_of("Nodes"), elements = begin_of("Elements");
   EXPECT_EQ(refusal(with_number(sound_binary(), nodes + 8, std::uint64_t{6})),
-            at_byte(nodes) + "$Nodes says 3 blocks with 6 nodes in all, and has 3 with 5" + kAnew);
+            at_byte(nodes) + "$Nodes says 3 blocks with 6 nodes in all, but has 3 with 5" + kAnew);
   EXPECT_EQ(refusal(with_number(sound_binary(), nodes, std::uint64_t{2})),
-            at_byte(nodes) + "$Nodes says 2 blocks with 5 nodes in all, and has 2 with 4" + kAnew +
-                "\n" + at_byte(nodes + 32 + 52 + 116) + "$Nodes goes on behind its last block" +
+            at_byte(nodes) + "$Nodes says 2 blocks with 5 nodes in all, but has 2 with 4" + kAnew +
+                "\n" + at_byte(nodes + 32 + 52 + 116) + "$Nodes continues after its last block" +
                 kAnew);
   const std::size_t last = elements + 32 + 20 + 32 + 20 + 40;
   EXPECT_EQ(
@@ -149,9 +150,9 @@ TEST(GmshBlocks, RefusesCountsThatDoNotAgreeInBinary) {
   const std::size_t entities = begin_of("Entities");
   EXPECT_EQ(refusal(with_number(sound_binary(), entities + 16, std::uint64_t{0})),
             at_byte(entities + 32 + 36 + 76 + 80 + 80) +
-                "$Entities goes on behind its last volume" + kAnew);
+                "$Entities continues after its last volume" + kAnew);
   EXPECT_EQ(refusal(with_number(sound_binary(), entities + 24, std::uint64_t{3})),
-            at_byte(entities) + "$Entities says 3 volumes and has 2" + kAnew);
+            at_byte(entities) + "$Entities says 3 volumes but has 2" + kAnew);
 }
 
 TEST(GmshBlocks, RefusesCountsThatNoFileHasRoomFor) {
@@ -165,12 +166,12 @@ TEST(GmshBlocks, RefusesCountsThatNoFileHasRoomFor) {
                 kAnew);
   EXPECT_EQ(refusal_with("\n3 5 1 5 \n", "\n1000000000000000000 1000000000000000000 1 5 \n"),
             "mesh.msh:19: $Nodes says 1000000000000000000 blocks with 1000000000000000000 nodes in "
-            "all, and has 3 with 5" +
+            "all, but has 3 with 5" +
                 kAnew);
   EXPECT_EQ(refusal_with("1 1 1 2 \n", "1 1 1 1000000000000000000 \n"),
-            "mesh.msh:11: $Entities says 1000000000000000000 volumes and has 2" + kAnew);
+            "mesh.msh:11: $Entities says 1000000000000000000 volumes but has 2" + kAnew);
   EXPECT_EQ(refusal_with("\n3\n2 4 \"fault\"", "\n1000000000000000000\n2 4 \"fault\""),
-            "mesh.msh:5: $PhysicalNames says 1000000000000000000 names and has 3" + kAnew);
+            "mesh.msh:5: $PhysicalNames says 1000000000000000000 names but has 3" + kAnew);
 }
 
 TEST(GmshBlocks, RefusesCountsThatNoBinaryFileHasRoomFor) {
@@ -181,7 +182,7 @@ TEST(GmshBlocks, RefusesCountsThatNoBinaryFileHasRoomFor) {
                 kAnew);
   EXPECT_EQ(refusal(with_number(sound_binary(), nodes, kHuge)),
             at_byte(nodes) +
-                "$Nodes says 1000000000000000000 blocks with 5 nodes in all, and has 3 with 5" +
+                "$Nodes says 1000000000000000000 blocks with 5 nodes in all, but has 3 with 5" +
                 kAnew);
   // The physical groups of the point, which then go on to the end of the section.
   EXPECT_EQ(refusal(with_number(sound_binary(), entities + 32 + 28, kHuge)),

@@ -13,7 +13,7 @@ using testing::Not;
 const std::string kFirstOrder =
     "; use elements of first order: Mesh.ElementOrder = 1, or gmsh -order 1";
 const std::string kOneShape = "; mesh all volumes with tetrahedra, or all with hexahedra";
-const std::string kRenumber = "; number nodes anew (RenumberMeshNodes) and save the mesh";
+const std::string kRenumber = "; renumber the nodes (RenumberMeshNodes) and save the mesh";
 
 /// The tag of an element and its nodes 1, 2, ...
 std::vector<std::uint64_t> row(std::uint64_t tag, std::uint64_t n_nodes) {
@@ -25,7 +25,7 @@ std::vector<std::uint64_t> row(std::uint64_t tag, std::uint64_t n_nodes) {
 TEST(GmshElements, RefusesNodesThatAreThereTwice) {
   msh::File file = msh::two_tetrahedra();
   file.nodes[2] = {3, 2, {5, 2, 2}, {{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}};
-  const std::string twice = ": node 2 is there twice, first at line 24" + kRenumber;
+  const std::string twice = ": node 2 is given twice, first at line 24" + kRenumber;
   EXPECT_EQ(refusal(msh::text(file)), "mesh.msh:32" + twice + "\nmesh.msh:33" + twice);
   file.nodes[2].tags = {std::uint64_t{1} << 62, 5, 2};  // tags that are sorted
   EXPECT_EQ(refusal(msh::text(file)), "mesh.msh:33" + twice);
@@ -33,7 +33,7 @@ TEST(GmshElements, RefusesNodesThatAreThereTwice) {
   const std::size_t nodes = bytes.find("$Nodes\n") + 7;
   EXPECT_EQ(refusal(bytes),
             concat("mesh.msh: byte ", nodes + 32 + 52 + 116 + 20 + 16,
-                   ": node 2 is there twice, first at byte ", nodes + 32 + 52 + 20, kRenumber));
+                   ": node 2 is given twice, first at byte ", nodes + 32 + 52 + 20, kRenumber));
 }
 
 TEST(GmshElements, RefusesNodesWithoutANumber) {
@@ -68,7 +68,7 @@ TEST(GmshElements, RefusesNodesThatAreNotThere) {
 }
 
 TEST(GmshElements, RefusesCornersThatAreThereTwice) {
-  const std::string cure = "; mesh anew, with geometry that has no doubles (Coherence)";
+  const std::string cure = "; remove duplicates from the geometry (Coherence) and mesh again";
   EXPECT_EQ(refusal(changed(sound_text(), "\n3 2 3 4 5 \n", "\n3 2 3 5 2 \n")),
             "mesh.msh:41: tetrahedron 3 has node 2 at two of its corners" + cure);
   EXPECT_EQ(refusal(changed(sound_text(), "\n1 2 3 4 \n", "\n1 2 4 4 \n")),
@@ -84,9 +84,10 @@ TEST(GmshElements, RefusesFacetsWithANodeThatNoCellHas) {
   file.elements[0].rows.push_back({4, 2, 6, 6 - 3});
   const std::string cure =
       "; make the surface one of the volumes' (BooleanFragments), or embed it (Surface{...} In "
-      "Volume{...}), and mesh anew";
-  EXPECT_EQ(refusal(msh::text(file)),
-            "mesh.msh:40: triangle 4 of \"fault\" has node 6, which is no corner of a cell" + cure);
+      "Volume{...}), and mesh again";
+  EXPECT_EQ(
+      refusal(msh::text(file)),
+      "mesh.msh:40: triangle 4 of \"fault\" has node 6, which is not a corner of a cell" + cure);
   // Not where a cell could not be put together, which may have it.
   EXPECT_EQ(refusal(changed(msh::text(file), "\n3 2 3 4 5 \n", "\n3 2 3 4 9 \n")),
             "mesh.msh:44: tetrahedron 3 has node 9, which is not in $Nodes" + kAnew);
@@ -152,7 +153,7 @@ TEST(GmshElements, KnowsTheNumberOfNodesOfEveryKind) {
     file.elements[4] = {1, 1, 1, {row(10, 2)}};  // is found behind them
     for (const std::string& bytes : {msh::text(file), msh::binary(file, msh::ByteOrder::big)}) {
       const std::string text = refusal(bytes);
-      EXPECT_THAT(text, AllOf(Not(HasSubstr("expected")), Not(HasSubstr("copy it anew")),
+      EXPECT_THAT(text, AllOf(Not(HasSubstr("expected")), Not(HasSubstr("copy it again")),
                               Not(HasSubstr("not known"))))
           << type;
       if (dimension == 3 && type != 4 && type != 11) {
@@ -187,7 +188,7 @@ TEST(GmshElements, TellsAllThatIsWrongInTheOrderOfBytes) {
   EXPECT_THAT(text,
               testing::MatchesRegex(concat(
                   "mesh.msh: byte ", bytes.find("2 4 \""), ": .* is not a char.*",
-                  "\nmesh.msh: byte ", nodes + 32 + 52 + 116 + 20 + 8, ": node 2 is there twice.*",
+                  "\nmesh.msh: byte ", nodes + 32 + 52 + 116 + 20 + 8, ": node 2 is given twice.*",
                   "\nmesh.msh: byte ", bytes.find("$Elements\n") + 10 + 32 + 52 + 60 + 60,
                   ": elements of type 140 are not known here.*")));
 }

@@ -70,18 +70,19 @@ TEST(GmshFiles, RefusesWhatItsFirstSectionMayNotSay) {
             "mesh.msh:2: \"4.1 0\" ends too early for version, 0 or 1 for text or binary, size of "
             "numbers" +
                 kLine);
-  EXPECT_EQ(refusal("$MeshFormat\n4.1 0 8 1\n"),
-            "mesh.msh:2: \"4.1 0 8 1\" holds more than version, 0 or 1 for text or binary, size of "
-            "numbers" +
-                kLine);
+  EXPECT_EQ(
+      refusal("$MeshFormat\n4.1 0 8 1\n"),
+      "mesh.msh:2: \"4.1 0 8 1\" contains more than version, 0 or 1 for text or binary, size of "
+      "numbers" +
+          kLine);
   EXPECT_EQ(refusal("$MeshFormat\n4.1 2 8\n"),
             "mesh.msh:2: 2 is neither 0 (text) nor 1 (binary)" + kAnew);
   EXPECT_EQ(refusal("$MeshFormat\n4.1 0 4\n"),
             "mesh.msh:2: numbers of 4 bytes are not read, those of 8 are; save the mesh with Gmsh "
-            "on a computer of 64 bits");
+            "on a 64-bit computer");
   for (const char* one : {"", "\1\0\0", "\2\0\0\0"}) {
     EXPECT_EQ(refusal(std::string("$MeshFormat\n4.1 1 8\n") + one),
-              "mesh.msh: the number 1, which tells the order of bytes, is not there" + kAnew);
+              "mesh.msh: the number 1, which shows the order of bytes, is missing" + kAnew);
   }
 }
 
@@ -138,7 +139,7 @@ TEST(GmshFiles, RefusesAFileThatEndsWithinASection) {
                 "\nmesh.msh:42: \"$EndElem\" ends a section that has not begun" + kEnd);
   const std::string within_nodes = sound_text().substr(0, sound_text().find("\n1 1 1 \n"));
   EXPECT_EQ(refusal(within_nodes), "mesh.msh:18: the file ends within the section \"$Nodes\"" +
-                                       kEnd + "\nmesh.msh:30: the block says 1 node, and 0 follow" +
+                                       kEnd + "\nmesh.msh:30: the block says 1 node, but 0 follow" +
                                        kAnew);
   const std::string binary = sound_binary();
   const std::size_t at = binary.find("$Elements");
@@ -160,16 +161,16 @@ TEST(GmshFiles, GoesOnBehindASectionThatDoesNotEnd) {
             concat("mesh.msh: byte ", binary.find("$Entities"),
                    ": the section \"$Entities\" does not end before \"$Nodes\"", kEnd,
                    "\nmesh.msh: byte ", binary.find("\n$EndEntities"),
-                   ": $Entities goes on behind its last volume", kAnew));
+                   ": $Entities continues after its last volume", kAnew));
 }
 
 TEST(GmshFiles, RefusesWhatStandsOutsideOfSections) {
   EXPECT_EQ(refusal(changed(sound_text(), "$Nodes\n", "one\ntwo\n$Nodes\n")),
-            "mesh.msh:18: \"one\" stands outside of all sections" + kEnd);
+            "mesh.msh:18: \"one\" is outside all sections" + kEnd);
   EXPECT_EQ(refusal(sound_text() + "$EndElements\nrest"),
             "mesh.msh:43: \"$EndElements\" ends a section that has not begun" + kEnd);
   EXPECT_EQ(refusal(sound_text() + "\x1b[1m"),
-            "mesh.msh:43: \"\\u001b[1m\" stands outside of all sections" + kEnd);
+            "mesh.msh:43: \"\\u001b[1m\" is outside all sections" + kEnd);
 }
 
 TEST(GmshFiles, ReadsNoMoreBehindTwentySectionsThatDoNotEnd) {
@@ -191,7 +192,7 @@ TEST(GmshFiles, TellsAllThatIsWrongInTheOrderOfLines) {
   EXPECT_EQ(refusal(text),
             "mesh.msh:7: \"3 3 east\" is not the name of a physical group; write the dimension and "
             "the number of the group, from 1, and its name in quotes: 3 1 \"reservoir\""
-            "\nmesh.msh:10: \"junk\" stands outside of all sections" +
+            "\nmesh.msh:10: \"junk\" is outside all sections" +
                 kEnd +
                 "\nmesh.msh:29: \"1d5\" is not a number (expected: x, y and z); write each on a "
                 "line of its own, as Gmsh does, in decimal numbers with a point: 1.5, 1e5"

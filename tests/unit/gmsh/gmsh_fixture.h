@@ -70,7 +70,7 @@ inline std::string sound_binary() {
 
 // Cures that many messages end with.
 inline const std::string kAnew =
-    "; save the mesh with Gmsh and copy it anew; the file is cut off, damaged or changed by hand";
+    "; save the mesh with Gmsh and copy it again; the file is cut off, damaged or changed by hand";
 inline const std::string kLine =
     "; write each on a line of its own, as Gmsh does, in decimal numbers with a point: 1.5, 1e5";
 

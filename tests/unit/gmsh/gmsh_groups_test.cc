@@ -48,7 +48,7 @@ TEST(GmshGroups, RefusesEntitiesThatAreThereTwice) {
   msh::File file = msh::two_tetrahedra();
   file.entities.push_back({3, 1, {3}});
   EXPECT_EQ(refusal(msh::text(file)),
-            "mesh.msh:17: volume 1 is there twice, first at line 15" + kAnew);
+            "mesh.msh:17: volume 1 is given twice, first at line 15" + kAnew);
 }
 
 TEST(GmshGroups, RefusesElementsOfEntitiesThatAreNotThere) {
@@ -72,17 +72,18 @@ TEST(GmshGroups, RefusesNamesThatAreNone) {
 
 TEST(GmshGroups, RefusesNamesThatAreNoText) {
   EXPECT_EQ(refusal(changed(sound_text(), "\"east\"", "\"e\xFFst\"")),
-            "mesh.msh:7: \"3 3 \"e\\xffst\"\" holds \"\\xff\", which is not a character of a text" +
+            "mesh.msh:7: \"3 3 \"e\\xffst\"\" contains \"\\xff\", which is not a text character" +
                 kWriteName);
   const std::string bytes = changed(sound_binary(), "\"east\"", "\"e\x1bst\"");
   EXPECT_EQ(refusal(bytes),
-            concat("mesh.msh: byte ", bytes.find("3 3 \"e"), ": \"3 3 \"e\\u001bst\"\" holds ",
-                   "\"\\u001b\", which is not a character of a text", kWriteName));
+            concat("mesh.msh: byte ", bytes.find("3 3 \"e"), ": \"3 3 \"e\\u001bst\"\" contains ",
+                   "\"\\u001b\", which is not a text character", kWriteName));
 }
 
 TEST(GmshGroups, RefusesAGroupWithTwoNames) {
   EXPECT_EQ(refusal(changed(sound_text(), "3 3 \"east\"", "3 10 \"east\"")),
-            "mesh.msh:8: \"3 10 \"west\"\" names a group that has a name, at line 7" + kWriteName);
+            "mesh.msh:8: \"3 10 \"west\"\" names a group that already has a name, at line 7" +
+                kWriteName);
 }
 
 TEST(GmshGroups, RefusesANameOfTwoGroups) {

@@ -36,16 +36,16 @@ TEST(LayerTable, IsRefusedWithAllThatIsWrong) {
   };
   const std::string sand = "sand, 0, 2000, 5, 0.3\n", reservoir = "reservoir, 0, 2400, 11, 0.15\n",
                     below = "below, 0, 2600, 30, 0.2\n";
-  refused(sand + below, "none called reservoir with others above and below");
-  refused(reservoir + below, "none called reservoir with others above and below");
-  refused(sand + reservoir, "none called reservoir with others above and below");
+  refused(sand + below, "no layer is called reservoir, with others above and below");
+  refused(reservoir + below, "no layer is called reservoir, with others above and below");
+  refused(sand + reservoir, "no layer is called reservoir, with others above and below");
   refused("sand, 10, 2000, 5, 0.3\n" + reservoir + below, "begins below the surface");
   refused(sand + "salt, 1600, 2100, 35, 0.3\n" + reservoir + below,
           "\"salt\" begins at 1600 m, where the reservoir is: it reaches up to 1500 m");
   refused(sand + "salt, 0, 2100, 35, 0.3\n" + reservoir + below, "does not begin below the layer");
   refused(sand + reservoir + below + "base, 1700, 2600, 30, 0.2\n",
           "there is room from 1800 to 5000 m");
-  refused(sand + sand + reservoir + below, "is no name of its own");
+  refused(sand + sand + reservoir + below, "is not a unique name");
   refused("sand, 0, 2000, 5, 0.7\n" + reservoir + below, "0 to 0.4999");
   EXPECT_THAT([] { read_layers("name, top [m]\nsand, 0\n", "layers.csv", 1, 2, 3); },
               ThrowsMessage<InputError>(testing::AllOf(HasSubstr("there is no column density"),
