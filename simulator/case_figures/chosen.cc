@@ -48,7 +48,7 @@ std::string words_of_original(const CasePicture& picture, bool is_drawn, const s
   if (picture.original == nullptr) return "";
   const std::string& name = picture.original->name;
   const std::string what = name.empty() ? "before the change" : name;
-  if (!is_drawn) return concat("nothing is kept of ", what, "; ");
+  if (!is_drawn) return concat("not kept: ", what, "; ");
   return concat("thin: ", what, place.empty() ? "" : ", ", place, "; ");
 }
 

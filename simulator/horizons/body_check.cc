@@ -35,7 +35,7 @@ void check_box(const LayeredBody& body, NumberCheck& check) {
   const BodyCells& cells = body.cells;
   check.demand(cells.at_faults > 0 && cells.far >= cells.at_faults && cells.growth > 0 &&
                    std::isfinite(cells.far) && !(cells.at_dividers <= 0),
-               "/cells", "sizes of cells make no sense",
+               "/cells", "the sizes of cells make no sense",
                "give 0 < at_faults <= far, and a growth above 0");
 }
 
@@ -57,8 +57,8 @@ void check_profile(DipProfile profile, const std::string& name, const std::strin
     is_line = is_line && std::isfinite(point.z) && std::isfinite(point.shift);
   for (std::size_t k = 0; k + 1 < profile.size(); ++k)
     is_line = is_line && profile[k].z < profile[k + 1].z;
-  check.demand(is_line, pointer, concat("a profile of ", name, " is no line that goes down"),
-               "give two points or more, each at a depth of its own");
+  check.demand(is_line, pointer, concat("a profile of ", name, " does not go down"),
+               "give two or more points, each at a different depth");
   if (!is_line) return;
   const double dip = least_dip(profile);
   check.demand(dip >= kLeast - kSlack, pointer,

@@ -36,9 +36,9 @@ int triangle_around(const MapMesh& map, const Eigen::Vector2d& place) {
 Problem not_apart(const std::string& pointer, const Compartment& one, const Compartment& other) {
   return {pointer, 0,
           concat("\"", one.name, "\" and \"", other.name,
-                 "\" are one part of the map: nothing separates ", map_place(one.inside), " from ",
-                 map_place(other.inside)),
-          "draw a divider from the end of a fault on, or make them one"};
+                 "\" are in one part of the map: nothing separates ", map_place(one.inside),
+                 " from ", map_place(other.inside)),
+          "draw a divider from the end of a fault, or make them one"};
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compart
     const int triangle = triangle_around(map, one.inside);
     if (triangle < 0) {
       problems.push_back({pointer, 0,
-                          concat("the point of \"", one.name, "\" lies outside of the box, at ",
+                          concat("the point of \"", one.name, "\" lies outside the box, at ",
                                  map_place(one.inside)),
                           "give a point of the compartment"});
       continue;

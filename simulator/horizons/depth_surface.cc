@@ -57,10 +57,11 @@ void check_depth(const GridDepth& grid, const std::string& pointer,
     if (std::isfinite(grid.z[k])) continue;
     const auto row = static_cast<int>(k / static_cast<std::size_t>(grid.nx));
     const auto column = static_cast<int>(k % static_cast<std::size_t>(grid.nx));
-    problems.push_back({pointer, 0,
-                        concat("the depth at x ", grid.origin.x() + column * grid.spacing.x(),
-                               ", y ", grid.origin.y() + row * grid.spacing.y(), " m is no number"),
-                        "fill the gaps of the grid"});
+    problems.push_back(
+        {pointer, 0,
+         concat("the depth at x ", grid.origin.x() + column * grid.spacing.x(), ", y ",
+                grid.origin.y() + row * grid.spacing.y(), " m is not a number"),
+         "fill the gaps of the grid"});
     return;
   }
 }
@@ -74,7 +75,7 @@ void check_depth(const PointDepth& scattered, const std::string& pointer,
   std::map<std::pair<double, double>, double> known;
   for (const Vector3d& p : scattered.points) {
     if (!p.allFinite()) {
-      problems.push_back({pointer, 0, "a point of a horizon is no number", "leave it out"});
+      problems.push_back({pointer, 0, "a point of a horizon is not a number", "leave it out"});
       return;
     }
     const auto [at, is_new] = known.emplace(std::pair(p.x(), p.y()), p.z());
@@ -198,7 +199,8 @@ DepthSurface::DepthSurface(const DepthOverMap& depth, const std::string& pointer
   const std::size_t before = problems.size();
   const auto demand_number = [&](bool is_number) {
     if (!is_number)
-      problems.push_back({pointer, 0, "a depth is no number", "give metres, negative below z = 0"});
+      problems.push_back(
+          {pointer, 0, "a depth is not a number", "give metres, negative below z = 0"});
   };
   std::visit(DepthCases{[&](const ConstantDepth& one) { demand_number(std::isfinite(one.z)); },
                         [&](const PlaneDepth& plane) {
@@ -219,7 +221,7 @@ void DepthSurface::hang(const HungDepth& hung, const DepthSurface* above,
     problems.push_back({pointer, 0, what, cure});
   };
   if (above == nullptr || above->scattered() == nullptr)
-    return refuse("a thickness is that of points, and the horizon above has none",
+    return refuse("thicknesses are given at points, but the horizon above has none",
                   "give the horizon above by points, or this one by depths");
   const std::size_t n = above->scattered()->points().size();
   if (hung.thickness.size() != n)

@@ -194,7 +194,7 @@ void LineDrawer::take_range() {
                " m depth and is not cut by the depth of traces, ", decimal(-trace_depth_, 1), " m"),
         "give a trace_depth that all faults reach, or a surface that reaches it");
   } else if (made_.top - made_.bottom < cell_) {
-    complain("is less high than a cell", "give a surface that goes on, or smaller cells");
+    complain("is lower than a cell", "give a taller surface, or smaller cells");
   }
 }
 
@@ -205,14 +205,14 @@ void LineDrawer::take_trace() {
   std::erase_if(lines, [&](const LevelLine& line) { return length_of(line) < 1e-6 * cell_; });
   const std::string here = "the depth of traces, " + decimal(-trace_depth_, 1) + " m";
   if (lines.empty() || length_of(lines[0]) < cell_)
-    return complain("is less than a cell long at " + here, "give one that goes on, or a trace");
+    return complain("is less than a cell long at " + here, "give a longer one, or a trace");
   if ((lines[0].front() - lines[0].back()).norm() < 1e-6 * cell_)
     return complain(concat("is a ring at ", here, ", around ", map_place(lines[0].front())),
-                    "part it in two faults, or give a trace");
+                    "split it into two faults, or give a trace");
   if (lines.size() > 1)
-    return complain(concat("is cut in ", lines.size(), " lines at ", here, ", one of them at ",
+    return complain(concat("is cut along ", lines.size(), " lines at ", here, ", one of them at ",
                            map_place(lines[1].front())),
-                    "close its holes, part it in faults, or give a trace");
+                    "close its holes, split it into faults, or give a trace");
   made_.trace = evenly(lines[0], cell_);
 }
 
@@ -224,7 +224,7 @@ void LineDrawer::take_given(const std::vector<Vector2d>& trace) {
     if (line.empty() || (at - line.back()).norm() > kSamePlace * cell_) line.push_back(at);
   if (line.size() < 2)
     return complain("is given a trace that has no length",
-                    "give it two points or more, or leave it out");
+                    "give it two or more points, or leave it out");
   made_.trace = with_points_between(line, cell_);
 }
 
@@ -334,11 +334,12 @@ bool LineDrawer::take_depth(double z) {
     if (here.empty() || here.back() - here.front() < kSame * cell_) continue;
     complain(concat("lies in two places ", depth_of(z), " across ", map_place(made_.trace[k]),
                     ": it folds back"),
-             "give the part of it that goes down only");
+             "give only the part of it that goes down");
     return false;
   }
   if (!is_reached && z == trace_depth_)
-    complain("is nowhere near the trace that is given", "leave the trace out, or draw it on it");
+    complain("is nowhere near the trace that is given",
+             "leave the trace out, or draw it on the surface");
   if (!is_reached) return z != trace_depth_;
   for (std::size_t k = 0; k < shifts.size(); ++k) {
     if (shifts[k]) {

@@ -110,8 +110,8 @@ void DepthCheck::do_not_cut(int f, int g) const {
     problems_.push_back(
         {concat("/faults/", f), 0,
          concat(name(f), " and ", name(g), " cut each other in depth, at ", depth_place(at, z)),
-         "let one end above the other: bodies that one fault truncates in depth "
-         "come as a mesh of your own"});
+         "let one end above the other; where one fault truncates another in depth, give "
+         "a mesh of your own"});
     return;
   }
 }

@@ -210,7 +210,7 @@ void Snapper::run(std::vector<Problem>& problems) {
                         concat("the horizons of both sides of \"", body_.faults[piece.fault].name,
                                "\" cross too steeply at ",
                                map_place(map_.vertices[map_.lines[piece.fault][piece.k]])),
-                        "make cells at faults smaller, or taper the throw over a longer way"});
+                        "make cells at faults smaller, or taper the throw over a longer distance"});
     return;
   }
 }

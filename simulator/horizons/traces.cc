@@ -81,7 +81,7 @@ void LineJoiner::add(const std::string& name, const std::vector<Vector2d>& point
       line.points.push_back(p.cwiseMax(body_.low).cwiseMin(body_.high));
   }
   if (points.size() < 2 || line.points.size() < 2)
-    complain(number, concat(what, " \"", name, "\" has no length"), "give two points or more");
+    complain(number, concat(what, " \"", name, "\" has no length"), "give two or more points");
   all_.lines.push_back(std::move(line));
 }
 
@@ -97,9 +97,9 @@ void LineJoiner::join_to_box(int line, Vector2d& end) {
       }
   if (least > cell_) {
     complain(line,
-             concat("\"", all_.lines[line].name, "\" is to end at the edge of the box and ends ",
-                    decimal(least, 1), " m before it, at ", map_place(end)),
-             "draw it on to the edge, or let it end in the rock");
+             concat("\"", all_.lines[line].name, "\" is to end at the edge of the box but ends ",
+                    decimal(least, 1), " m short of it, at ", map_place(end)),
+             "extend it to the edge, or let it end in the rock");
     return;
   }
   end[axis] = side;
@@ -131,8 +131,8 @@ void LineJoiner::join_to_line(int line, Vector2d& end) {
   if (nearest.distance > cell_) {
     complain(
         line,
-        concat(name, " is to end at another fault and ends at ", map_place(end), ", near none"),
-        "draw it on to the fault, or let it end in the rock");
+        concat(name, " is to end at another fault but ends at ", map_place(end), ", near none"),
+        "extend it to the fault, or let it end in the rock");
     return;
   }
   const std::vector<Vector2d>& points = all_.lines[other].points;
@@ -145,7 +145,7 @@ void LineJoiner::join_to_line(int line, Vector2d& end) {
     complain(line,
              concat(name, " and \"", all_.lines[other].name, "\" end at each other at ",
                     map_place(nearest.point), " (a V)"),
-             "draw them as one fault with a bend, or let one go on by a cell");
+             "draw them as one fault with a bend, or let one extend past the other by a cell");
     return;
   }
   end = put_on(other, nearest.point);
@@ -242,7 +242,7 @@ void LineJoiner::check_angle(const Meeting& meeting) {
       meeting.first,
       concat("\"", all_.lines[meeting.first].name, "\" meets ", other, " at ",
              std::round(least * 180 / std::numbers::pi), " degrees at ", map_place(meeting.at)),
-      "let them meet at 25 degrees or more, or draw one fault of both");
+      "let them meet at 25 degrees or more, or draw both as one fault");
 }
 
 /// A pillar can lie on two surfaces, not on three.

@@ -41,7 +41,7 @@ std::string blas_complaint() {
   free(real);
   if (path.find("openblas") != std::string::npos) return "";
   return concat("the linear algebra in use is ", path,
-                ", not OpenBLAS: expect runs that are ten times slower and other last digits; "
+                ", not OpenBLAS: expect runs that are ten times slower and different last digits; "
                 "run: sudo update-alternatives --config libblas.so.3-x86_64-linux-gnu");
 }
 

@@ -69,7 +69,7 @@ void judge(const DiagnosisLimits& limits, double traction_tolerance, Diagnosis& 
   // What is not a number is beyond every limit.
   const auto limit = [&](const char* what, double value, double most, bool told) {
     if (!(value <= most))
-      flag(concat(what, two_digits(value), ", allowed are ", two_digits(most)), told);
+      flag(concat(what, two_digits(value), ", above the limit of ", two_digits(most)), told);
   };
   const CaseResult& result = diagnosis.result;
   const double residual = limits.residual * traction_tolerance / 1e-8;

@@ -156,7 +156,7 @@ class Warnings {
     if (n_steps == 0) return;
     if (scene_.numerics.creep_time_step > 0) {  // fixed steps: no error was estimated
       texts_.push_back(concat("a fault jumps while the salt creeps in ", n_steps,
-                              " load steps, whose loads were put on at once for it; shorten "
+                              " load steps, whose loads were then applied at once; shorten "
                               "/numerics/creep_time_step"));
       return;
     }
@@ -213,8 +213,8 @@ std::string surface_warning(const CaseSurface& surface) {
                 surface.n_basis, " columns): at ", surface.n_checks,
                 " check points H is off by up to ", brief(surface.stiffness),
                 ", locked tractions by ", brief(surface.traction), ", slip without friction by ",
-                brief(surface.slip), stability, " of themselves", cases,
-                "; faultsim run --exact takes the exact one");
+                brief(surface.slip), stability, " (relative)", cases,
+                "; faultsim run --exact uses the exact one");
 }
 
 }  // namespace faultsim

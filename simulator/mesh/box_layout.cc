@@ -308,7 +308,7 @@ class LayoutBuilder {
           overlap(extent_[i].column, extent_[j].column) && overlap(extent_[i].row, extent_[j].row))
         problems_.push_back({patch_pointer(i), 0,
                              concat("overlaps patch ", j, " on the same plane"),
-                             "make one patch of them or move them apart"});
+                             "make them one patch or move them apart"});
   }
 
   void sort_planes(const std::vector<BentPlane>& planes, const std::vector<size_t>& owner) {
@@ -321,7 +321,7 @@ class LayoutBuilder {
       if (k > 0 && planes[order[k]].ref - sorted.back().ref < tolerance_)
         problems_.push_back({patch_pointer(owner[order[k]]), 0,
                              concat("crosses patch ", owner[order[k - 1]]),
-                             "patches may not cross"});
+                             "move them apart: patches may not cross"});
       sorted.push_back(planes[order[k]]);
       rank[order[k]] = k;
     }

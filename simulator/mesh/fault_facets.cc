@@ -179,7 +179,7 @@ std::vector<FaultFacet> facets_inside(const UncutMesh& body, const CellFaces& fa
                                ", the first at ", place_of(body.nodes, some.first)),
                         cure});
   };
-  say(lost, "are no face of a cell", "embed the fault in the volumes before they are meshed");
+  say(lost, "are not faces of cells", "embed the fault in the volumes before they are meshed");
   say(outside, "are on the outside of the body",
       "let the fault end at the outside or leave it out");
   if (other >= 0)

@@ -80,7 +80,7 @@ std::vector<Problem> undecided(const UncutMesh& body, const UndecidedPlaces& pla
                         concat("the faults ", names, " cut the rock only together, at ",
                                counted(at.size(), "node", "nodes"), ", the first at ",
                                place_text(at.front()), ": a jump there would belong to none"),
-                        "let one of them go on beyond the other, or make them one fault"});
+                        "let one of them extend beyond the other, or make them one fault"});
   }
   return problems;
 }

@@ -80,7 +80,7 @@ MeshQuality check_quality(const Mesh& mesh) {
                              quality.min_scaled_jacobian, " is not above ", least,
                              mesh.cells.shape() == CellShape::hexahedron
                                  ? "; move the faults apart, reduce their dip or enlarge the body"
-                                 : "; mesh finer there, or optimise the mesh (Mesh.Optimize)");
+                                 : "; refine the mesh there, or optimise it (Mesh.Optimize)");
   }
   return quality;
 }

@@ -101,7 +101,7 @@ void add_faults(HtmlPage& page, const CasePicture& picture) {
 
 void add_doubts(HtmlPage& page, const CaseResult& result) {
   page.section("how-sure", "How sure this is");
-  if (result.warnings.empty()) page.paragraph("Nothing was remarked about this run.", "faint");
+  if (result.warnings.empty()) page.paragraph("This run gave no warnings.", "faint");
   for (const std::string& warning : result.warnings) page.paragraph(warning);
 }
 

@@ -78,7 +78,7 @@ class SurfaceCheck {
     if (mesh.nodes.size() != own_->nodes.size() || mesh.cells != own_->cells ||
         mesh.material != own_->material || mesh.region != own_->region ||
         mesh.tied_to != own_->tied_to) {
-      refuse(ends, "the mesh has other cells than that of the scene");
+      refuse(ends, "the mesh has other cells than the scene's");
     }
   }
 
@@ -103,7 +103,7 @@ class SurfaceCheck {
     const std::string pointer =
         ends.size() > 1 ? list : concat(list, "/", ends[0].of, ends[0].upper ? "/to" : "/from");
     problems_.push_back({pointer, 0, "with " + at + " " + what,
-                         "narrow the range, move what is in the way, or take exact operators"});
+                         "narrow the range, move what is in the way, or use exact operators"});
   }
 
   static std::string number_text(double value) { return formatted("%.6g", value); }

@@ -286,7 +286,7 @@ Sentences kinds(const CaseResult& before, const CaseResult& after) {
   Sentences said;
   for (const auto& [one, other, words] :
        {std::tuple(&after, &before, " was not there before the change."),
-        std::tuple(&before, &after, " of before the change is not there now.")}) {
+        std::tuple(&before, &after, " was there before the change and is not now.")}) {
     for (const std::string& name : one->fault_names)
       if (std::ranges::find(other->fault_names, name) == other->fault_names.end())
         said.push_back(concat("Fault ", name, words));

@@ -61,7 +61,7 @@ void read(std::string_view name, const json& value, int& target) {
   target = static_cast<int>(number);
 }
 void read(std::string_view name, const json& value, std::string& target) {
-  if (!value.is_string()) refuse(name, value, "a text");
+  if (!value.is_string()) refuse(name, value, "text");
   target = value.get<std::string>();
 }
 void read(std::string_view name, const json& value, Outcome& target) {

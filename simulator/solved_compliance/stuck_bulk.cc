@@ -130,7 +130,7 @@ StuckBulk::StuckBulk(std::shared_ptr<const BulkProblem> problem, const SolverCho
     throw InputError("coupled path",
                      "columns of H are solved for by conjugate gradients, which ilu cannot "
                      "precondition: it is not symmetric",
-                     "take amg, amg-u, ic, fsai or exact (--leading)");
+                     "use amg, amg-u, ic, fsai or exact (--leading)");
   }
   const double start = seconds_of_processor();
   impl_ = std::make_unique<Impl>(std::move(problem), solver, tolerance);
@@ -174,7 +174,7 @@ StuckBulk::Response StuckBulk::respond(const Eigen::VectorXd& force) const {
   if (!response.report.converged) {
     throw Unsolved(concat("conjugate gradients (", to_string(self.solver.leading),
                           ") do not reach ", self.tolerance, " within ", self.solver.max_iterations,
-                          " iterations: take another --leading (exact, amg or amg-u), or the "
+                          " iterations: use another --leading (exact, amg or amg-u), or the "
                           "condensed path"));
   }
   response.r.resize(n_bulk);

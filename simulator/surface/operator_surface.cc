@@ -32,7 +32,7 @@ std::vector<int> observed_nodes(const BulkProblem& problem) {
 
 [[noreturn]] void refuse_topology() {
   refuse_surface("the mesh changes its topology over the ranges of the surface",
-                 "narrow the ranges of dips and offsets, or take exact operators");
+                 "narrow the ranges of dips and offsets, or use exact operators");
 }
 
 SparseGrid grid_of(const std::vector<SparseGrid::Index>& nodes) {
@@ -239,7 +239,7 @@ void require_definite(const FaultOperator& op, const std::vector<int>& dofs) {
   }
   if (DenseCholesky().factor(std::move(block))) return;
   refuse_surface("the interpolated H is not positive definite at this case's parameters",
-                 "take a smaller tolerance, or exact operators");
+                 "use a smaller tolerance, or exact operators");
 }
 
 }  // namespace faultsim

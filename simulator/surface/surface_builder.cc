@@ -99,7 +99,7 @@ Builder::Builder(const SurfaceRequest& request, const ExactOperator& exact,
   DenseCholesky factor;
   if (!factor.factor(nodes_.centre()->h())) {
     refuse_surface("a piece that faults cut loose moves freely, so that H is not positive definite",
-                   "take exact operators");
+                   "use exact operators");
   }
 }
 
@@ -116,9 +116,9 @@ void Builder::require_memory(double bytes, const char* what) const {
   const auto free = available_memory();
   if (!free || bytes <= *free) return;
   throw ResourceError(concat(what, " of the surface need ", brief(bytes / 1e9),
-                             " GB of memory, and there are ", brief(*free / 1e9),
+                             " GB of memory, but there are ", brief(*free / 1e9),
                              " GB; give operators a cache, narrow the surface's ranges, raise its "
-                             "tolerance, or take a coarser tier"));
+                             "tolerance, or use a coarser tier"));
 }
 
 /// What is left out of H in all nodes together is below a twentieth of `tolerance`.
@@ -160,7 +160,7 @@ std::shared_ptr<const FaultOperator> Builder::interpolated(
 void Builder::look_at_exact(Check& check) {
   if (check.slip.size() > 0) return;
   const auto slip = slip_without_friction(*check.exact, check.exact->geometry.dof_area);
-  if (!slip) refuse_surface("an exact H is not positive definite", "take exact operators");
+  if (!slip) refuse_surface("an exact H is not positive definite", "use exact operators");
   check.slip = *slip;
   check.stability = stability_limits(check.exact->geometry, check.exact->h());
 }
@@ -262,7 +262,7 @@ void Builder::refuse(const CaseSurface& found) const {
                    brief(request_.tolerance), " is asked for");
   refuse_surface(concat("the surface does not reach its tolerance: with ", found.n_operators,
                         " operators ", errors),
-                 "narrow its ranges, raise tolerance or most_operators, or take exact operators");
+                 "narrow its ranges, raise tolerance or most_operators, or use exact operators");
 }
 
 StoredSurface Builder::build(const std::string& fingerprint) {

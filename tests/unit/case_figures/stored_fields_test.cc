@@ -139,7 +139,7 @@ TEST_F(FieldsOfAFault, AreDrawnWithThoseBeforeAChange) {
     picture.original = &none;
     for (const CaseChart chart : {CaseChart::profiles, CaseChart::stress_path}) {
       const std::string svg = draw_case(picture, {chart, "F2", {}, false});
-      EXPECT_THAT(svg, HasSubstr(">nothing is kept of before the change; "));
+      EXPECT_THAT(svg, HasSubstr(">not kept: before the change; "));
       EXPECT_THROW(read_thin(svg, 0, false), std::out_of_range);
     }
   }

@@ -370,7 +370,7 @@ TEST(BuildBody, AllNumbersThatMakeNoSenseAreToldAtOnce) {
                            "the throw of \"F\"", "has 1 region for 2 layers"})
     EXPECT_THAT(said, HasSubstr(what));
   body.faults[0].profiles = {{{-1000, 100}, {-1000, 0}}};
-  EXPECT_THAT(refusal_of(body), HasSubstr("a profile of \"F\" is no line that goes down"));
+  EXPECT_THAT(refusal_of(body), HasSubstr("a profile of \"F\" does not go down"));
   body.faults[0].profiles.resize(3);
   EXPECT_THAT(refusal_of(body), HasSubstr("\"F\" has 3 profiles for 2 points of its trace"));
 }

@@ -208,7 +208,7 @@ TEST(DrawnSurface, WhatIsNoFaultIsRefusedWithItsPlace) {
   EXPECT_THAT(refused(triangulated(-1900, -1300, on_plane)),
               HasSubstr("/at: the surface of \"F\" reaches from 1300 to 1900 m depth and is not "
                         "cut by the depth of traces, 2000 m"));
-  EXPECT_THAT(refused(triangulated(-2040, -1990, on_plane)), HasSubstr("is less high than a cell"));
+  EXPECT_THAT(refused(triangulated(-2040, -1990, on_plane)), HasSubstr("is lower than a cell"));
   const auto narrow = [](double u, double z) { return Vector2d(on_plane(u / 50, z)); };
   EXPECT_THAT(refused(triangulated(-2900, -1300, narrow)), HasSubstr("is less than a cell long"));
   // Down to -2,400 m and up again beside, in one piece.

@@ -98,7 +98,7 @@ TEST(Compartments, AreFilledUpToFaultsAndDividers) {
   fill_compartments(meshed(body), body.compartments, problems);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_THAT(problems[0].what,
-              testing::HasSubstr("\"east\" and \"west\" are one part of the map"));
+              testing::HasSubstr("\"east\" and \"west\" are in one part of the map"));
   body.dividers = {{"on", {{0, 500}, {0, 2000}}}};
   problems.clear();
   const MapMesh map = meshed(body);
@@ -111,7 +111,7 @@ TEST(Compartments, AreFilledUpToFaultsAndDividers) {
   }
   EXPECT_EQ(cut_map(map).at[map.lines[1][2]].size(), 1u) << "a divider does not cut";
   fill_compartments(map, {{"far", {9000, 0}, {}}}, problems);
-  EXPECT_THAT(problems.back().what, testing::HasSubstr("outside of the box"));
+  EXPECT_THAT(problems.back().what, testing::HasSubstr("outside the box"));
 }
 
 /// Pressures end at a divider and no rock slides: cells there are larger than at faults, and of the

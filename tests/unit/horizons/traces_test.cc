@@ -83,11 +83,11 @@ TEST(Traces, WhatDoesNotFitIsRefusedWithItsPlace) {
   EXPECT_THAT(refusal(body),
               HasSubstr("/faults/0/trace: the trace of \"F\" leaves the box at x 0, y 2500"));
   body.faults[0].trace.back() = {0, 1500};
-  EXPECT_THAT(refusal(body), HasSubstr("ends 500 m before it, at x 0, y 1500 m"));
+  EXPECT_THAT(refusal(body), HasSubstr("ends 500 m short of it, at x 0, y 1500 m"));
   body.faults[0].trace = {{1, 1}, {1, 1}};
   EXPECT_THAT(refusal(body), HasSubstr("has no length"));
   body.faults = {dipping_fault(), branch({400, 300}, {1500, 300})};
-  EXPECT_THAT(refusal(body), HasSubstr("/faults/1/trace: \"B\" is to end at another fault and ends "
+  EXPECT_THAT(refusal(body), HasSubstr("/faults/1/trace: \"B\" is to end at another fault but ends "
                                        "at x 400, y 300 m, near none"));
   body.faults[1] = branch({0, 300}, {1500, 1000});
   body.faults[1].trace.back() = {300, 1900};

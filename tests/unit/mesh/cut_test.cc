@@ -204,7 +204,7 @@ TEST(Cut, EveryProblemIsSaidAtOnce) {
   body.boundary[1].facets.push_back(body.faults[0].facets[0]);
   EXPECT_EQ(
       said(body),
-      "body.msh: fault \"A\": 1 of 33 facets are no face of a cell, the first at x 1.666667, y "
+      "body.msh: fault \"A\": 1 of 33 facets are not faces of cells, the first at x 1.666667, y "
       "1.333333, z 1.333333 m; embed the fault in the volumes before they are meshed\n"
       "body.msh: fault \"B\": 8 of 8 facets belong to \"A\" too, the first at x 2, y "
       "0.6666667, z 0.3333333 m; let each facet belong to one fault\n"
@@ -235,7 +235,7 @@ TEST(Cut, AVIsRefusedWithItsPlace) {
   EXPECT_EQ(
       said(body),
       "body.msh: the faults \"A\", \"B\" cut the rock only together, at 9 nodes, the first at x "
-      "2, y 2, z 0 m: a jump there would belong to none; let one of them go on beyond the other, "
+      "2, y 2, z 0 m: a jump there would belong to none; let one of them extend beyond the other, "
       "or make them one fault");
 }
 

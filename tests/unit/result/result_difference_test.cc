@@ -222,7 +222,7 @@ TEST(DifferenceSentences, AreOfFaultsByTheirNamesAndSayWhichAreNotInBoth) {
   const std::vector<std::string> said = difference_sentences(before, after);
   EXPECT_THAT(said, ElementsAre(HasSubstr("Nothing changes beyond"),
                                 "Fault F4 was not there before the change.",
-                                "Fault F1 of before the change is not there now."));
+                                "Fault F1 was there before the change and is not now."));
 }
 
 /// What a surface is off by is not a change.
