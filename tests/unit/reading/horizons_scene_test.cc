@@ -178,7 +178,7 @@ TEST_F(HorizonsScene, ListsOfDipsAreHeldAgainstTheTrace) {
     read_scene(curved);
     ADD_FAILURE() << "two points of the profile are at one depth";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/faults/0/listric: a profile of \"F1\" does not go down\"));
+    EXPECT_THAT(error.what(), HasSubstr("/faults/0/listric: a profile of \"F1\" does not go down"));
   }
 }
 
