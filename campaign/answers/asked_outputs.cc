@@ -16,7 +16,7 @@ std::vector<ScopedMetric> asked_outputs(const Store& store, const CampaignInfo& 
       names += (names.empty() ? "" : ",") + of_each_fault(selection.faults, metric);
   }
   std::vector<ScopedMetric> outputs = choose_metrics(selection, names, true, false);
-  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  const Store::Kinds kinds = kinds_of(store, campaign, selection, request.cases.where);
   for (const ScopedMetric& one : outputs)
     if (one.is_extensive()) refuse_mixed(kinds, "--metrics", one.name);
   return outputs;

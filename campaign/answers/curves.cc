@@ -299,7 +299,8 @@ std::string last_point(const Curves& curves) {
 Curves probability_curves(const Store& store, const CampaignInfo& campaign,
                           const CurveRequest& request) {
   const Selection selection = make_selection(store, campaign, request.stage, "");
-  Curves found{campaign, request, sampling_of(store, campaign), 0, {}};
+  Curves found{
+      campaign, request, sampling_of(store, campaign, {request.where, request.stage}), 0, {}};
   const bool each_stage = request.axis == CurveAxis::pressure && request.stage.empty();
   Store::TableQuery query = case_query(campaign, selection, request.where);
   if (each_stage) query.stage = any_stage(selection);

@@ -275,7 +275,7 @@ std::optional<OneAtATime> compare_one_at_a_time(const Store& store, const Campai
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
   OneAtATime found{campaign, request, {}, {}, {}, {}};
   found.outputs = asked_outputs(store, campaign, request, selection);
-  found.plane_strain = store.kinds(campaign.id, {}).plane_strain;
+  found.plane_strain = kinds_of(store, campaign, selection, "").plane_strain;
   for (const StoredParameter& one : campaign.parameters) found.parameters.push_back(one.name);
   const bool has_groups = !found.parameters.empty() && found.parameters[0] == kGroup;
   std::map<long, CaseValues> cases;

@@ -187,18 +187,24 @@ void refuse_few(const Posterior& p) {
   throw InputError("posterior", what, cure);
 }
 
-/// Estimates by the weights as computed, bounds by what they may be.
+/// Of the bounds of a sample; none where there is no sample: then what is open makes them.
+using Confidence = std::optional<double>;
+constexpr double kAny = 0.95;  ///< of estimates without bounds.
+
+/// Estimates by the weights as computed, bounds by what they may be; of no sample none.
 std::vector<QuantileBounds> quantiles_of(const std::vector<double>& values,
                                          const std::vector<WeightRange>& computed,
                                          const std::vector<WeightRange>& open,
-                                         const std::vector<std::size_t>& order, double confidence) {
+                                         const std::vector<std::size_t>& order,
+                                         Confidence confidence) {
   std::vector<QuantileBounds> found;
   const bool any_known = std::ranges::any_of(
       open, [](const WeightRange& one) { return one.is_known() && one.most > 0; });
   for (const double q : kPosteriorQuantiles) {
-    found.push_back(weighted_quantile(values, computed, order, q, confidence));
-    const QuantileBounds bounds =
-        any_known ? weighted_quantile(values, open, order, q, confidence) : QuantileBounds{};
+    found.push_back(weighted_quantile(values, computed, order, q, confidence.value_or(kAny)));
+    const QuantileBounds bounds = any_known && confidence
+                                      ? weighted_quantile(values, open, order, q, *confidence)
+                                      : QuantileBounds{};
     found.back().low = bounds.low;
     found.back().high = bounds.high;
   }
@@ -207,7 +213,8 @@ std::vector<QuantileBounds> quantiles_of(const std::vector<double>& values,
 
 /// A parameter of which every row has a number.
 ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> values,
-                          const std::string& unit, const WeightedRows& rows, double confidence) {
+                          const std::string& unit, const WeightedRows& rows,
+                          Confidence confidence) {
   ParameterUpdate update{parameter.name, unit, {}, {}};
   if (!unit.empty()) {
     for (double& one : values) one = faultsim::from_si(one, parameter.dimension, unit);
@@ -222,9 +229,21 @@ ParameterUpdate update_of(const StoredParameter& parameter, std::vector<double> 
   return update;
 }
 
+/// Between what the share of all weight with a property lies, as weights and property may be.
+Interval open_range(const std::vector<Holds>& holds, const std::vector<WeightRange>& weights) {
+  double yes = 0, no = 0, most_yes = 0, most_no = 0;
+  for (std::size_t k = 0; k < holds.size(); ++k) {
+    if (holds[k] == Holds::yes) yes += weights[k].least;
+    if (holds[k] == Holds::no) no += weights[k].least;
+    if (holds[k] != Holds::no) most_yes += weights[k].most;
+    if (holds[k] != Holds::yes) most_no += weights[k].most;
+  }
+  return {yes > 0 ? yes / (yes + most_no) : 0, no > 0 ? most_yes / (most_yes + no) : 1};
+}
+
 /// The estimate as computed; the bounds over all that is open.
 Estimate probability_of(const std::vector<Held>& held, const std::vector<WeightRange>& computed,
-                        const std::vector<WeightRange>& open, double confidence) {
+                        const std::vector<WeightRange>& open, Confidence confidence) {
   std::vector<Holds> as_computed, as_known;
   bool any_known = false;
   for (std::size_t k = 0; k < held.size(); ++k) {
@@ -236,22 +255,30 @@ Estimate probability_of(const std::vector<Held>& held, const std::vector<WeightR
     as_known.push_back(is_known ? as_computed.back() : Holds::unknown);
     any_known = any_known || (is_known && open[k].is_known() && open[k].most > 0);
   }
-  Estimate found = weighted_probability(as_computed, computed, confidence);
-  found.bounds =
-      any_known ? weighted_probability(as_known, open, confidence).bounds : Interval{0, 1};
+  Estimate found = weighted_probability(as_computed, computed, confidence.value_or(kAny));
+  found.bounds = {0, 1};
+  if (!confidence) {
+    found.bounds = open_range(as_known, open);
+  } else if (any_known) {
+    found.bounds = weighted_probability(as_known, open, *confidence).bounds;
+  }
   return found;
 }
 
 Update update_of(const std::string& label, const std::vector<Held>& held, const WeightedRows& rows,
-                 double confidence) {
+                 Confidence confidence) {
   const std::vector<WeightRange> equal(held.size(), {1, 1});
   return {label, probability_of(held, equal, equal, confidence),
           probability_of(held, rows.computed, rows.open, confidence)};
 }
 
+Confidence confidence_of(const Posterior& p) {
+  return p.sampling.is_random ? Confidence(p.request.confidence) : std::nullopt;
+}
+
 void update_parameters(Posterior& p, const WeightedRows& rows) {
   const std::vector<StoredParameter>& all = p.campaign.parameters;
-  const double confidence = p.request.confidence;
+  const Confidence confidence = confidence_of(p);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::vector<double>& values = rows.values[k];
     const bool are_numbers =
@@ -331,10 +358,14 @@ std::string headline_of(const Posterior& p) {
   const Update& most = *std::ranges::max_element(
       p.probabilities,
       [](const Update& a, const Update& b) { return a.after.value < b.after.value; });
+  const Interval& bounds = most.after.bounds;
+  const bool has_bounds = p.sampling.is_random || p.n_unknown + p.n_undecided > 0;
   return concat(p.probabilities.size() == 1 ? "" : "Most likely: ", most.label, ": ",
-                format_percent(most.after.value), " % (", format_percent(most.after.bounds.low),
-                " to ", format_percent(most.after.bounds.high), " %), before ",
-                format_percent(most.before.value), " %. ", sample, ".");
+                format_percent(most.after.value), " %",
+                has_bounds ? concat(" (", format_percent(bounds.low), " to ",
+                                    format_percent(bounds.high), " %)")
+                           : std::string(),
+                ", before ", format_percent(most.before.value), " %. ", sample, ".");
 }
 
 }  // namespace
@@ -345,7 +376,7 @@ Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
   Posterior found;
   found.campaign = campaign;
   found.request = request;
-  found.sampling = sampling_of(store, campaign);
+  found.sampling = sampling_of(store, campaign, {request.where});
   found.seen = read_seen(request.seen, campaign, selection);
   const std::vector<std::string> conditions =
       request.conditions.empty() ? default_conditions(selection) : request.conditions;
@@ -354,7 +385,8 @@ Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
   refuse_few(found);
   update_parameters(found, rows);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
-    found.probabilities.push_back(update_of(conditions[c], rows.held[c], rows, request.confidence));
+    found.probabilities.push_back(
+        update_of(conditions[c], rows.held[c], rows, confidence_of(found)));
   }
   return found;
 }
@@ -373,7 +405,7 @@ Answer to_answer(const Posterior& p) {
   answer.add(parameter_table(p.parameters));
   answer.add(update_table("words", "parameter", p.words));
   answer.add(update_table("probabilities", "condition", p.probabilities));
-  if (p.effective_size < kFewestEffectiveMembers) {
+  if (p.sampling.is_random && p.effective_size < kFewestEffectiveMembers) {
     answer.note(
         concat("Bounds of a share of one twentieth hold 93 to 97 times in 100 for an "
                "effective sample of at least ",
@@ -390,9 +422,12 @@ Answer to_answer(const Posterior& p) {
                        "step a fault began to slide: estimates take them as computed, bounds allow "
                        "for either."));
   }
-  answer.note(concat("Bounds contain the values after the observations with a confidence of ",
-                     confidence_text(p.request.confidence),
-                     "; errors of the observations are taken as independent."));
+  answer.note(
+      concat(p.sampling.is_random
+                 ? concat("Bounds contain the values after the observations with a confidence of ",
+                          confidence_text(p.request.confidence))
+                 : "From and to allow for what is open alone: they are not bounds of a probability",
+             "; errors of the observations are taken as independent."));
   answer.note_if(p.sampling.remark);
   answer.note_if(p.sampling.approximation);
   return answer;

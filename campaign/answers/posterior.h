@@ -53,8 +53,9 @@ struct Posterior {
 /// likelihoods and conditions may be anything that what is known of them allows: estimates are of
 /// the others, bounds reach over all of it, as those of `probability` do. What the cells leave open
 /// (seen.h, likelihood_by_cells) counts in estimates as computed, and widens bounds likewise.
-/// Throws InputError where a statement or condition cannot be read, and where the effective sample
-/// size is below kFewestEffective: then a few cases would speak for all.
+/// Where the cases are no sample (Sampling::is_random), bounds are by what is open alone. Throws
+/// InputError where a statement or condition cannot be read, and where the effective sample size is
+/// below kFewestEffective: then a few cases would speak for all.
 Posterior find_posterior(const Store& store, const CampaignInfo& campaign,
                          const PosteriorRequest& request);
 inline constexpr double kFewestEffective = 50;

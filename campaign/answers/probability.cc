@@ -99,7 +99,8 @@ std::vector<Part> parts_by_label(const std::vector<std::size_t>& order, const As
   return parts;
 }
 
-/// AskedRows in groups, each with a name: by value where there are few, else ten of equal number.
+/// AskedRows in groups, each with a name: by value where there are few, else up to ten of
+/// about equal number, none of which begins amid equal values.
 std::vector<Part> parts_of(const AskedRows& rows) {
   std::vector<std::size_t> order(rows.label.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -110,12 +111,19 @@ std::vector<Part> parts_of(const AskedRows& rows) {
       order, [&](std::size_t a, std::size_t b) { return rows.value[a] < rows.value[b]; });
   std::vector<Part> parts = parts_by_label(order, rows, kMostValues);
   if (!parts.empty()) return parts;
+  std::size_t from = 0;
   for (std::size_t part = 0; part < kParts; ++part) {
-    const std::size_t from = part * order.size() / kParts, to = (part + 1) * order.size() / kParts;
+    std::size_t to = std::max(from, (part + 1) * order.size() / kParts);
+    const auto splits_a_value = [&] {
+      return to > 0 && to < order.size() && rows.value[order[to]] == rows.value[order[to - 1]];
+    };
+    while (splits_a_value()) ++to;
+    if (to == from) continue;
     parts.push_back(
         {concat(short_number(rows.label[order[from]]), " to ",
                 short_number(rows.label[order[to - 1]])),
          {order.begin() + static_cast<long>(from), order.begin() + static_cast<long>(to)}});
+    from = to;
   }
   return parts;
 }
@@ -191,7 +199,11 @@ std::vector<std::string> default_conditions(const Selection& selection) {
 Probability find_probability(const Store& store, const CampaignInfo& campaign,
                              const ProbabilityRequest& request) {
   const Selection selection = make_selection(store, campaign, "", "");
-  Probability found{campaign, request, sampling_of(store, campaign), {}, 0};
+  Probability found{campaign,
+                    request,
+                    sampling_of(store, campaign, {request.where}, request.by == "group"),
+                    {},
+                    0};
   const std::vector<std::string> conditions = request.condition.empty()
                                                   ? default_conditions(selection)
                                                   : std::vector<std::string>{request.condition};

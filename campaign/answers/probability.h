@@ -11,7 +11,7 @@ namespace faultsweep {
 struct ProbabilityRequest {
   std::string condition = {};  ///< as of `rank --where`; "" = sliding of each fault in each stage.
   std::string where = {};      ///< of which cases; "" = all.
-  std::string by = {};         ///< a parameter: for each of its values, or ten parts of its range.
+  std::string by = {};         ///< a parameter: for each of its values, or parts of its range.
   double confidence = 0.95;
   double width = 0;  ///< wanted distance of the bounds, in (0, 1]; 0 = not asked.
 };

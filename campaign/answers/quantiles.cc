@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "campaign/common/names.h"
+#include "campaign/query/ranking.h"
 #include "campaign/render/shown.h"
 
 namespace faultsweep {
@@ -18,20 +19,45 @@ double order_statistic(const std::vector<double>& sorted, double q) {
   return sorted[static_cast<std::size_t>(std::max(1.0, place)) - 1];
 }
 
-MetricQuantiles of_metric(const ScopedMetric& metric, std::vector<double> values,
+/// Values that there are, ascending; `resolved` those that do not hang on the cells.
+struct SortedValues {
+  std::vector<double> all, resolved;
+};
+
+/// The quantile of all values, between bounds that hold whatever the `n_open` others are.
+QuantileBounds sampled_quantile(const SortedValues& values, long n_open, double error, double q,
+                                double confidence) {
+  QuantileBounds found;
+  if (!values.resolved.empty()) found = quantile_bounds(values.resolved, n_open, q, confidence);
+  found.estimate = quantile_bounds(values.all, 0, q, confidence).estimate;
+  if (found.low) *found.low -= error;
+  if (found.high) *found.high += error;
+  return found;
+}
+
+/// @param unresolved  per value, 1 where the cells leave it open.
+MetricQuantiles of_metric(const ScopedMetric& metric, const std::vector<double>& values,
+                          const std::vector<double>& unresolved, double error,
                           const Quantiles& all) {
-  MetricQuantiles found{metric, 0, 0, {}};
-  const auto n_all = values.size();
-  std::erase_if(values, [](double one) { return !std::isfinite(one); });
-  found.n = static_cast<long>(values.size());
-  found.n_without = static_cast<long>(n_all - values.size());
-  if (values.empty()) return found;
-  std::ranges::sort(values);
+  MetricQuantiles found{metric, 0, 0, 0, error, {}};
+  SortedValues sorted;
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const bool is_open = unresolved[k] == 1, has_value = std::isfinite(values[k]);
+    found.n_unresolved += is_open ? 1 : 0;
+    if (has_value) sorted.all.push_back(values[k]);
+    if (has_value && !is_open) sorted.resolved.push_back(values[k]);
+  }
+  found.n = static_cast<long>(sorted.all.size());
+  found.n_without = static_cast<long>(values.size()) - found.n;
+  if (sorted.all.empty()) return found;
+  std::ranges::sort(sorted.all);
+  std::ranges::sort(sorted.resolved);
+  const long n_open = all.n_unknown + found.n_unresolved;
   for (const double q : all.request.at) {
     if (all.sampling.is_random) {
-      found.values.push_back(quantile_bounds(values, all.n_unknown, q, all.request.confidence));
+      found.values.push_back(sampled_quantile(sorted, n_open, error, q, all.request.confidence));
     } else {
-      found.values.push_back({order_statistic(values, q), std::nullopt, std::nullopt});
+      found.values.push_back({order_statistic(sorted.all, q), std::nullopt, std::nullopt});
     }
   }
   return found;
@@ -66,6 +92,7 @@ AnswerTable table_of(const Quantiles& q, const ShownUnit* only) {
   }
   table.columns.push_back({"rows", "rows"});
   table.columns.push_back({"without_value", "without a value"});
+  table.columns.push_back({"undecided", "undecided by cells"});
   for (const MetricQuantiles& one : q.metrics) {
     const ShownUnit own = unit_of(q, one);
     if (only != nullptr && own.name != only->name) continue;
@@ -74,7 +101,7 @@ AnswerTable table_of(const Quantiles& q, const ShownUnit* only) {
       std::vector<AnswerCell> row = {one.metric.name, only != nullptr ? "" : own.si,
                                      q.request.at[k], value.estimate};
       if (is_sample) append(row, {end_cell(value.low), end_cell(value.high)});
-      append(row, {one.n, one.n_without});
+      append(row, {one.n, one.n_without, one.n_unresolved});
       table.rows.push_back(std::move(row));
     }
   }
@@ -120,6 +147,22 @@ std::string sentence_of(const Quantiles& q, const MetricQuantiles& one) {
   return text + ".";
 }
 
+/// What the cells leave open of a metric, and its measured error; "" = nothing.
+std::string undecided_note(const Quantiles& q, const MetricQuantiles& one) {
+  const bool is_sample = q.sampling.is_random;
+  std::string text;
+  if (one.n_unresolved > 0)
+    text =
+        concat("In ", one.n_unresolved, " cases the cells leave ", one.metric.name, " undecided: ",
+               is_sample ? "the quantile takes them as computed, bounds allow for any value."
+                         : "they are taken as computed.");
+  if (one.error > 0 && is_sample)
+    text += concat(text.empty() ? "" : " ", "Bounds of ", one.metric.name,
+                   " are further away by its largest measured error of ",
+                   in_unit(one.error, unit_of(q, one), 2), ".");
+  return text;
+}
+
 }  // namespace
 
 Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
@@ -129,15 +172,23 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
     throw InputError("--at", concat(format_number(q), " is not a share of the cases"),
                      "write shares between 0 and 1: 0.05,0.5,0.95");
   }
-  Quantiles found{campaign, request, sampling_of(store, campaign), 0, {}};
-  Sample sample = read_sample(store, campaign, {request.where, "", ""}, request.metrics);
-  found.n_unknown = sample.n_without + sample.n_early;
-  const Store::Kinds kinds = store.kinds(campaign.id, {});
+  Quantiles found{campaign, request, sampling_of(store, campaign, {request.where}), 0, {}};
+  const Selection selection = make_selection(store, campaign, "", "");
+  const std::vector<ScopedMetric> metrics = choose_metrics(selection, request.metrics, true, false);
+  const Store::Kinds kinds = kinds_of(store, campaign, selection, request.where);
   found.plane_strain = kinds.plane_strain;
-  for (std::size_t m = 0; m < sample.outputs.size(); ++m) {
-    const ScopedMetric& metric = sample.outputs[m];
-    if (metric.is_extensive()) refuse_mixed(kinds, "--quantiles", metric.name);
-    found.metrics.push_back(of_metric(metric, std::move(sample.y[m]), found));
+  std::vector<ScopedMetric> columns = metrics;  // then whether they are resolved
+  for (const ScopedMetric& one : metrics) {
+    if (one.is_extensive()) refuse_mixed(kinds, "--quantiles", one.name);
+    columns.push_back(unresolved_flag(one, selection));
+  }
+  const Sample sample = read_sample(store, campaign, {request.where, "", ""}, std::move(columns));
+  found.n_unknown = sample.n_without + sample.n_early;
+  const StatedErrors errors = stated_errors(error_bars_of(store, campaign));
+  for (std::size_t m = 0; m < metrics.size(); ++m) {
+    const auto error = errors.find(metrics[m].metric);
+    found.metrics.push_back(of_metric(metrics[m], sample.y[m], sample.y[metrics.size() + m],
+                                      error == errors.end() ? 0 : error->second, found));
   }
   return found;
 }
@@ -170,6 +221,7 @@ Answer to_answer(const Quantiles& q) {
       answer.note(concat(q.n_unknown, " cases without a full history have no value here."));
   }
   for (const MetricQuantiles& one : q.metrics) {
+    answer.note_if(undecided_note(q, one));
     if (one.n_without > 0)
       answer.note(concat(one.n_without, " full histories have no ", one.metric.name,
                          ": they are left out."));

@@ -21,10 +21,12 @@ struct MetricQuantiles {
   ScopedMetric metric;
   long n = 0;          ///< rows with a value.
   long n_without = 0;  ///< full histories without one, such as the magnitude of no event: left out.
+  long n_unresolved = 0;  ///< full histories of which the cells leave it open.
+  double error = 0;       ///< that was measured of it at the tier of the cases; 0 = was not.
   /// Per QuantileRequest::at; none where no row has a value. Of a random sample with bounds that
-  /// hold whatever the distribution. Of other designs there is no distribution: the order statistic
-  /// of what was run, that is the smallest of its values that no less than this share of the rows
-  /// do not exceed, without bounds.
+  /// hold whatever the distribution and whatever is undecided. Of other designs there is no
+  /// distribution: the order statistic of what was run, that is the smallest of its values that no
+  /// less than this share of the rows do not exceed, without bounds.
   std::vector<QuantileBounds> values;
 };
 
@@ -37,9 +39,10 @@ struct Quantiles {
   bool plane_strain = false;  ///< areas, potencies and moments are per metre of strike.
 };
 
-/// Rows without a history to its end may have any value: the lower bound is that with all of them
-/// below, the upper one that with all of them above, and the value is of the others. Throws
-/// InputError on wrong metrics or shares.
+/// Rows without a history to its end, and those whose value the cells leave open, may have any
+/// value: the lower bound is that with all of them below, the upper one that with all of them
+/// above, and each is further away by the measured error. The quantile itself is of what was
+/// computed. Throws InputError on wrong metrics or shares.
 Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
                          const QuantileRequest& request);
 

@@ -7,7 +7,6 @@
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
-#include "campaign/query/ranking.h"
 #include "campaign/query/table_output.h"
 
 namespace faultsweep {
@@ -90,6 +89,12 @@ std::vector<json> designs_of(const Store& store, const CampaignInfo& campaign) {
   return designs;
 }
 
+std::vector<json> designs_of_group(const json& group) {
+  std::vector<json> designs;
+  collect_designs(group, designs);
+  return designs;
+}
+
 std::vector<char> derived_parameters(const std::vector<json>& designs,
                                      const CampaignInfo& campaign) {
   std::set<std::string> chosen = {"group"};
@@ -118,40 +123,6 @@ std::string derived_note(const std::vector<std::string>& names) {
 long rows_per_base_sample(const json& design) {
   const auto n = static_cast<long>(design.at("parameters").size());
   return (design.value("second_order", false) ? 2 * n : n) + 2;
-}
-
-Sampling sampling_of(const Store& store, const CampaignInfo& campaign) {
-  const std::vector<json> designs = designs_of(store, campaign);
-  const auto all_are = [&](const std::set<std::string>& kinds) {
-    return std::ranges::all_of(designs,
-                               [&](const json& one) { return kinds.contains(one.at("kind")); });
-  };
-  Sampling sampling;
-  sampling.approximation = approximation_note(store, campaign);
-  sampling.is_random = all_are({"monte-carlo", "latin-hypercube", "sobol", "samples"});
-  sampling.is_factorial = all_are({"grid"});
-  if (all_are({"places"})) {
-    sampling.remark = "Places are not a sample: shares are of these places, not probabilities.";
-  } else if (all_are({"samples"})) {
-    sampling.remark =
-        "Samples of a file, taken as independent: for a correlated chain, intervals are too "
-        "narrow.";
-  } else if (all_are({"latin-hypercube", "sobol"})) {
-    sampling.remark = "Samples are spread evenly: intervals are wider than necessary.";
-  } else if (sampling.is_factorial) {
-    sampling.remark =
-        "A grid: shares are of the values given, each counted equally, not probabilities.";
-  } else if (!sampling.is_random) {
-    sampling.remark =
-        "The cases were not drawn at random: shares are of these cases, not probabilities.";
-  }
-  if (sampling.is_random && campaign.n_excluded > 0) {
-    sampling.remark +=
-        concat(sampling.remark.empty() ? "" : " ", campaign.n_excluded,
-               " rows of the design are excluded by the spec: probabilities are those of "
-               "the rest.");
-  }
-  return sampling;
 }
 
 SampleRows::SampleRows(const Store& store, const CampaignInfo& campaign) {

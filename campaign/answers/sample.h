@@ -20,14 +20,23 @@ struct SampledCases {
 
 /// How the campaign's cases were chosen, and what follows for statistics.
 struct Sampling {
-  bool is_random = false;     ///< drawn: shares are estimates of probabilities.
+  /// Drawn, each row independently of the others: shares are estimates of probabilities.
+  bool is_random = false;
   bool is_factorial = false;  ///< every combination: shares are of the values given.
+  /// Why rows that were drawn depend on each other, so that bounds which take them as independent
+  /// would be too narrow; "" = they do not, or are not drawn.
+  std::string dependence;
   std::string remark;         ///< what to know of it, in a sentence; "" = nothing.
   std::string approximation;  ///< of its results: approximation_note().
 };
-/// By the designs of the campaign's spec. Of a sobol design only the rows of its two independent
-/// blocks are a sample.
-Sampling sampling_of(const Store& store, const CampaignInfo& campaign);
+/// By the designs of the campaign's spec, of the groups that have a case which `cases` selects. Of
+/// a sobol design only the rows of its two independent blocks are a sample. Rows of nested designs
+/// share draws, as those of groups with the same seed do, and groups of sobol designs have other
+/// rows too: these are no random samples, whatever they are of.
+/// @param groups_are_apart  answers are of each group alone, as `--by group` has them.
+/// Throws InputError as make_selection and parse_condition.
+Sampling sampling_of(const Store& store, const CampaignInfo& campaign,
+                     const SampledCases& cases = {}, bool groups_are_apart = false);
 
 /// How often each case of a campaign is a row of its sample: more than once where rows were the
 /// same case; in a sobol design as often as it is a row of block A or B.
@@ -70,6 +79,9 @@ Sample read_design(const Store& store, const CampaignInfo& campaign, const Selec
 
 /// The designs of its resolved spec, those within nested ones too.
 std::vector<nlohmann::json> designs_of(const Store& store, const CampaignInfo& campaign);
+
+/// The same of one of its groups.
+std::vector<nlohmann::json> designs_of_group(const nlohmann::json& group);
 
 /// What designs of a campaign choose: by index in its parameters, 1 where one follows from others
 /// (`derived` of the spec), so that it explains nothing of its own; 2 where it is the name of a

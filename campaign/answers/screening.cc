@@ -153,7 +153,7 @@ std::optional<Screening> screen(const Store& store, const CampaignInfo& campaign
   Sample rows =
       read_design(store, campaign, selection, asked_outputs(store, campaign, request, selection));
   Screening s{campaign, request, {}, {}, rows.derived};
-  s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
+  s.plane_strain = kinds_of(store, campaign, selection, request.cases.where).plane_strain;
   s.n_rows = rows.n_rows;
   s.n_without = rows.n_without + rows.n_early;
   s.n_unresolved = rows.n_unresolved;

@@ -1,9 +1,10 @@
 #include "campaign/answers/seen.h"
-#include "campaign/common/names.h"
 
 #include <algorithm>
 #include <cmath>
 #include <regex>
+
+#include "campaign/common/names.h"
 
 namespace faultsweep {
 
@@ -14,6 +15,24 @@ constexpr const char* kForms =
     "0.2 on F2 between -120 bar and -80 bar +- 5 bar\", \"no event of Mw 3 on F2\", \"max_slip = "
     "20 "
     "mm +- 5 mm\" or \"F2.slides in gas_storage, wrong 0.1\"";
+
+/// Of a statement: std::regex_match makes a call within a call for each.
+constexpr std::size_t kMostLetters = 2000;
+
+/// The beginning of a text of which messages cannot show all.
+std::string beginning_of(const std::string& text) {
+  std::size_t end = 60;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end) + "…";
+}
+
+/// Whether this is how a statement may name the fault: as it is called, or in quotes.
+bool is_name_of(const std::string& name, const NamedId& fault) {
+  if (name == fault.name) return true;
+  if (name.empty() || (name.front() != '"' && name.front() != '\'')) return false;
+  const auto quoted = quoted_at(name, 0);
+  return quoted && quoted->end == name.size() && quoted->inside == fault.name;
+}
 
 double share_below(double distance, double error) {
   if (error == 0) return distance >= 0 ? 1 : 0;
@@ -35,6 +54,12 @@ class StatementReader {
     static const std::regex kCondition(R"((.+?)(, wrong (\S+))?)");
     statement_ = {};
     statement_.text = text;
+    if (text.size() > kMostLetters) {
+      statement_.text = beginning_of(text);
+      problem(concat("has ", text.size(), " characters"),
+              concat("write at most ", kMostLetters, ", or several statements"));
+      return statement_;
+    }
     std::smatch parts;
     if (std::regex_match(text, parts, kSlid)) {
       read_slid(parts);
@@ -68,7 +93,7 @@ class StatementReader {
 
   void set_fault(const std::string& name) {
     for (const NamedId& one : selection_.faults)
-      if (one.name == name) statement_.fault = one.id;
+      if (is_name_of(name, one)) statement_.fault = one.id;
     if (statement_.fault != 0) return;
     std::string names = joined(selection_.faults, ", ", &NamedId::name);
     problem(concat("there is no fault ", name), "there are: " + names);

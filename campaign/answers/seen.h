@@ -22,7 +22,8 @@
 ///
 /// Errors are standard deviations of normal ones; a statement without one is taken to be exact.
 /// "before" counts from the start of the history, "Mw 3" is 3 or larger, and pressures are changes
-/// since the start, on the side of the fault that changed more.
+/// since the start, on the side of the fault that changed more. Names of faults may stand in
+/// quotes, as in expressions.
 namespace faultsweep {
 
 struct SeenStatement {
@@ -40,7 +41,8 @@ struct SeenStatement {
   bool is_exact() const { return error == 0 && range_error == 0; }
 };
 
-/// Throws InputError that lists every statement which cannot be read, with the forms there are.
+/// Throws InputError that lists every statement which cannot be read, with the forms there are, or
+/// has more than 2000 bytes.
 std::vector<SeenStatement> read_seen(const std::vector<std::string>& statements,
                                      const CampaignInfo& campaign, const Selection& selection);
 

@@ -23,7 +23,10 @@ void refuse_what_is_no_sample(const Sensitivity& s) {
   if (!s.sampling.is_random && !s.sampling.is_factorial) {
     throw InputError(
         "sensitivity",
-        concat("the cases of ", s.campaign.name, " are not a sample of its parameters"),
+        s.sampling.dependence.empty()
+            ? concat("the cases of ", s.campaign.name, " are not a sample of its parameters")
+            : concat("the cases of ", s.campaign.name,
+                     " do not vary independently: ", s.sampling.dependence),
         "give its spec one design monte-carlo, latin-hypercube, sobol, grid, morris or "
         "one-at-a-time");
   }
@@ -61,7 +64,7 @@ std::string dependence_of(const Store& store, const CampaignInfo& campaign,
 
 Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign,
                                 const SensitivityRequest& request) {
-  Sensitivity s{campaign, request, sampling_of(store, campaign), {}, {}, {}};
+  Sensitivity s{campaign, request, sampling_of(store, campaign, request.cases), {}, {}, {}};
   const Selection selection =
       make_selection(store, campaign, request.cases.stage, request.cases.fault);
   HistoryOutputs histories;
@@ -70,7 +73,7 @@ Sensitivity analyse_sensitivity(const Store& store, const CampaignInfo& campaign
                          request.by_step ? std::move(histories.outputs)
                                          : asked_outputs(store, campaign, request, selection));
   refuse_what_is_no_sample(s);
-  s.plane_strain = store.kinds(campaign.id, {}).plane_strain;
+  s.plane_strain = kinds_of(store, campaign, selection, request.cases.where).plane_strain;
   s.dependence = dependence_of(store, campaign, request);
   for (const StoredParameter& one : s.sample.parameters) s.parameters.push_back(one.name);
   s.steps = std::move(histories.steps);

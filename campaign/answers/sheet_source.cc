@@ -158,13 +158,7 @@ SheetSource read_sheet_source(const Store& store, const CampaignInfo& campaign,
   if (first_full > 0)
     source.steps = store.stored_case(campaign.id, std::to_string(first_full)).result.steps;
   const std::optional<StoredRounds> rounds = stored_rounds(store, campaign);
-  if (rounds && rounds->spec.contains("limits")) {
-    source.limits = make_limit_table(store, campaign);
-    source.sampling.is_random = source.sampling.is_factorial = false;
-    source.sampling.remark =
-        "Cases were chosen by the search for limits: shares are of the cases run, not "
-        "probabilities.";
-  }
+  if (rounds && rounds->spec.contains("limits")) source.limits = make_limit_table(store, campaign);
   source.faults = faults_of(source);
   read_starts(source, scenes, case_ids);
   return source;

@@ -155,7 +155,8 @@ void add_samples(Program& program) {
   command
       ->add_option("--width", request.width,
                    "wanted distance of the bounds, as a share: says how many more cases it takes")
-      ->check(CLI::Range(1e-4, 1.0));
+      ->check(CLI::Range(1e-4, 1.0))
+      ->check(not_nan());
   add_confidence(command, request.confidence);
   add_renderings(command, program.common);
   command->footer(
@@ -243,7 +244,8 @@ void add_tables(Program& program) {
   compare_command
       ->add_option("--tolerance", a.request.tolerance,
                    "relative difference up to which a metric agrees (default 1e-9)")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::NonNegativeNumber)
+      ->check(not_nan());
   compare_command->add_option("--metrics", a.request.metrics,
                               "names from `rank --list-metrics`, comma-separated; default: all");
   compare_command->add_option("--stage", a.request.stage,

@@ -83,6 +83,8 @@ void add_wide(CLI::App* command);
 /// The renderings of an answer.
 void add_renderings(CLI::App* command, StoreArguments& common);
 void add_confidence(CLI::App* command, double& confidence);
+/// Refuses NaN, which CLI::Range, PositiveNumber and NonNegativeNumber let pass.
+CLI::Validator not_nan();
 void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description);
 /// Memory and threads for building operators.
 void add_build_limits(CLI::App* command, RunOptions& options);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "campaign/app/commands.h"
 
 namespace faultsweep {
@@ -56,7 +58,18 @@ void add_renderings(CLI::App* command, StoreArguments& common) {
 
 void add_confidence(CLI::App* command, double& confidence) {
   command->add_option("--confidence", confidence, "of the intervals (default 0.95)")
-      ->check(CLI::Range(0.5, 0.9999));
+      ->check(CLI::Range(0.5, 0.9999))
+      ->check(not_nan());
+}
+
+CLI::Validator not_nan() {
+  return CLI::Validator(
+      [](std::string& text) {
+        double value = 0;
+        const bool is_nan = CLI::detail::lexical_cast(text, value) && std::isnan(value);
+        return is_nan ? concat("Value ", text, " is not a number") : std::string();
+      },
+      "");
 }
 
 void add_workers(CLI::App* command, std::optional<int>& n_workers, const char* description) {

@@ -335,6 +335,7 @@ void add_reading(Program& program) {
       ->add_option("--tolerance", a.certify.tolerance,
                    "relative difference up to which certified cases agree (default 0.01)")
       ->check(CLI::PositiveNumber)
+      ->check(not_nan())
       ->needs(certified);
   add_workers(command, a.certify.n_workers, "of --certify; default: the cores available");
   add_renderings(command, program.common);

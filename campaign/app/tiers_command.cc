@@ -121,7 +121,8 @@ void add_tiers(Program& program) {
                    "wanted distance of the bounds of probabilities, as a share: says which\n"
                    "numbers of cases reach it, its half and its quarter in the least time;\n"
                    "for other answers, half and a quarter of the present distance")
-      ->check(CLI::Range(1e-4, 1.0));
+      ->check(CLI::Range(1e-4, 1.0))
+      ->check(not_nan());
   add_workers(command, t.run.n_workers, "of the runs; default: the cores available");
   add_build_limits(command, t.run);
   add_confidence(command, t.request.confidence);

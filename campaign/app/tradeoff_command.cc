@@ -204,12 +204,14 @@ void add_tradeoff(Program& program) {
   command
       ->add_option("--error", t.wanted_chi,
                    "error of the critical index to recommend a mesh for (default 0.02)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(not_nan());
   command
       ->add_option("--operator-limit", t.operator_seconds,
                    "in s; choices whose operator is predicted to take longer are left out\n"
                    "(default 300)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::PositiveNumber)
+      ->check(not_nan());
   command->add_option("--memory", t.memory,
                       "the same for memory: \"12 GB\"; default: 0.8 of the memory available");
   command

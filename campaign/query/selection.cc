@@ -44,6 +44,13 @@ Symbols symbols_of(const CampaignInfo& campaign, const std::map<std::string, Sco
   return symbols;
 }
 
+std::string unresolved_sql_of(const ScopedMetric& metric, const Selection& selection) {
+  const MetricIds all = {mapped(selection.faults, &NamedId::id),
+                         mapped(selection.stages, &NamedId::id)};
+  return metric.scope ? unresolved_sql(metric.metric, all, *metric.scope, selection.stage.id)
+                      : unresolved_sql(metric.metric, all, selection.fault.has_value());
+}
+
 /// Where the metrics among the names are not resolved, and how large their errors are.
 void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
                 const std::map<std::string, ScopedMetric>& known, const Selection& selection,
@@ -55,9 +62,7 @@ void add_doubts(Symbols& symbols, const std::vector<std::string>& names,
     const auto found = known.find(name);
     if (found == known.end()) continue;
     const ScopedMetric& metric = found->second;
-    symbols[name].unresolved =
-        metric.scope ? unresolved_sql(metric.metric, all, *metric.scope, selection.stage.id)
-                     : unresolved_sql(metric.metric, all, selection.fault.has_value());
+    symbols[name].unresolved = unresolved_sql_of(metric, selection);
     const auto error = errors.find(metric.metric);
     if (error != errors.end()) symbols[name].error = error->second;
   }
@@ -212,6 +217,14 @@ StatedErrors stated_errors(const std::vector<ErrorBar>& bars) {
   return errors;
 }
 
+ScopedMetric unresolved_flag(const ScopedMetric& metric, const Selection& selection) {
+  ScopedMetric flag = metric;
+  flag.sql = concat("coalesce(", unresolved_sql_of(metric, selection), ", 0)");
+  flag.dimension = Dimension::number;
+  flag.is_flag = true;
+  return flag;
+}
+
 VerdictSql parse_verdict(const std::string& condition, const CampaignInfo& campaign,
                          const Selection& selection, const StatedErrors& errors) {
   const auto known = known_metrics(selection);
@@ -251,6 +264,15 @@ std::string of_each_fault(const std::vector<NamedId>& faults, const std::string&
 void refuse_unrun(const std::string& option, const std::string& what,
                   const CampaignInfo& campaign) {
   throw InputError(option, what, concat("run it: faultsweep run ", campaign.name));
+}
+
+Store::Kinds kinds_of(const Store& store, const CampaignInfo& campaign, const Selection& selection,
+                      const std::string& where) {
+  Store::RankingQuery query;
+  query.stage = selection.stage.name;
+  if (selection.fault) query.fault = selection.fault->id;
+  query.where = parse_condition(where, campaign, selection);
+  return store.kinds(campaign.id, query);
 }
 
 void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what) {

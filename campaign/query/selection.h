@@ -58,6 +58,9 @@ using StatedErrors = std::map<std::string, double>;
 /// @param bars  of the tier of the cases in question.
 StatedErrors stated_errors(const std::vector<ErrorBar>& bars);
 
+/// Whether the value of a metric is not resolved (unresolved_sql), as a flag in its place.
+ScopedMetric unresolved_flag(const ScopedMetric& metric, const Selection& selection);
+
 /// A condition about a case as SQL. It is undecided where what it depends on is not resolved
 /// (unresolved_sql: that is so of all results of a case that has none, or whose history ended
 /// early) or within its error of a threshold; parameters are resolved and exact. Throws InputError.
@@ -80,6 +83,10 @@ std::string of_each_fault(const std::vector<NamedId>& faults, const std::string&
 [[noreturn]] void refuse_unrun(const std::string& option, const std::string& what,
                                const CampaignInfo& campaign);
 
+/// Of which kind the results are that `where` selects of the selection's stage and fault. Throws
+/// InputError as parse_condition.
+Store::Kinds kinds_of(const Store& store, const CampaignInfo& campaign, const Selection& selection,
+                      const std::string& where);
 /// Throws the option's InputError where `what`, an area, a potency or a moment, would be compared
 /// between results per metre of strike and in total.
 void refuse_mixed(const Store::Kinds& kinds, const std::string& option, const std::string& what);

@@ -10,9 +10,20 @@
 
 namespace faultsweep {
 
+namespace {
+
+/// Digits in front of the point, of the largest numbers that are written without an exponent.
+constexpr int kMostPlainDigits = 7;
+
+}  // namespace
+
 std::string format_number(double value, int digits) {
   if (!std::isfinite(value)) return "-";
-  return formatted("%.*g", digits, value + 0.0);
+  const std::string text = formatted("%.*g", digits, value + 0.0);
+  if (text.find("e+") == std::string::npos) return text;
+  const double rounded = std::strtod(text.c_str(), nullptr);
+  const bool is_plain = std::abs(rounded) < std::pow(10.0, kMostPlainDigits);
+  return is_plain ? formatted("%.0f", rounded) : text;
 }
 
 std::string in_unit(double value, const ShownUnit& unit, int digits) {
@@ -27,8 +38,9 @@ std::string short_number(const std::string& text) {
   const auto n_digits =
       std::ranges::count_if(number, [](unsigned char c) { return std::isdigit(c) != 0; });
   const bool alone = *end == '\0' || *end == ' ';
-  if (!alone || n_digits <= kDigits || number.find('.') == std::string::npos) return text;
-  return format_number(value, kDigits) + end;
+  const std::size_t point = number.find('.');
+  if (!alone || n_digits <= kDigits || point == std::string::npos) return text;
+  return format_number(value, std::max(static_cast<int>(kDigits), static_cast<int>(point))) + end;
 }
 
 std::string with_error(double value, double error) {
@@ -38,6 +50,8 @@ std::string with_error(double value, double error) {
   const std::string text = formatted("%.0e", error);
   const int place = std::stoi(text.substr(text.find('e') + 1));
   constexpr int kMostPlaces = 6;
+  if (place > 0 && place < kMostPlainDigits && std::abs(value) < 100)
+    return concat(formatted("%.0f", std::round(value) + 0.0), " ± ", format_number(error, 1));
   if (place > 0 || place < -kMostPlaces)
     return concat(format_number(value, 3), " ± ", format_number(error, 1));
   return formatted("%.*f ± %.*f", -place, value + 0.0, -place, error);

@@ -92,11 +92,7 @@ struct StatisticsMetrics {
 StatisticsMetrics choose(const Store& store, const CampaignInfo& campaign,
                          const Selection& selection, const ExportRequest& request) {
   StatisticsMetrics chosen{choose_metrics(selection, request.metrics, false, false)};
-  Store::RankingQuery query;
-  query.stage = request.stage;
-  query.where = parse_condition(request.where, campaign, selection);
-  if (selection.fault) query.fault = selection.fault->id;
-  const Store::Kinds kinds = store.kinds(campaign.id, query);
+  const Store::Kinds kinds = kinds_of(store, campaign, selection, request.where);
   for (const ScopedMetric& metric : chosen.metrics) {
     if (metric.is_extensive()) refuse_mixed(kinds, "--metrics", metric.name);
   }

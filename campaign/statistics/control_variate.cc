@@ -10,12 +10,20 @@ namespace {
 
 struct Moments {
   double n = 0, mean = 0, squares = 0;  ///< squares of the deviations, summed.
+  double largest = 0;                   ///< of the values, without their signs.
   double variance() const { return squares / std::max(1.0, n - 1); }
+  /// Whether they differ by more than rounding, of which the mean of equal values has some too.
+  bool varies() const {
+    constexpr double kRounding = 1e-12;
+    const double rounding = kRounding * largest;
+    return squares > n * rounding * rounding;
+  }
 };
 
 Moments moments_of(std::span<const double> values) {
-  Moments m{static_cast<double>(values.size()), 0, 0};
+  Moments m{static_cast<double>(values.size())};
   for (const double v : values) m.mean += v / m.n;
+  for (const double v : values) m.largest = std::max(m.largest, std::abs(v));
   for (const double v : values) m.squares += (v - m.mean) * (v - m.mean);
   return m;
 }
@@ -47,14 +55,14 @@ TieredEstimate tiered_mean(const TieredSample& sample, double confidence) {
   TieredEstimate found;
   found.direct = student_estimate(y.mean, std::sqrt(y.variance() / n), n - 1, confidence);
   found.n_equivalent = n;
-  if (!(x.squares > 0)) {
+  if (!x.varies() || !y.varies()) {
     found.estimate = found.direct;
     found.residual_variance = y.variance();
     return found;
   }
   const double xy = product_sum(paired, x.mean, sample.high, y.mean);
   found.weight = xy / x.squares;
-  if (y.squares > 0) found.correlation = xy / std::sqrt(x.squares * y.squares);
+  found.correlation = xy / std::sqrt(x.squares * y.squares);
   const double residual = std::max(0.0, y.squares - xy * found.weight) / (n - 2);
   const double shift = all.mean - x.mean;
   const double variance = residual * (1 / n + shift * shift / x.squares) +

@@ -35,8 +35,9 @@ struct TieredEstimate {
 ///   variance  s_e² (1 / n + (mean(x_N) − mean(x_n))² / S_xx) + β² s_x² / N,
 ///
 /// with s_e² the residual variance (n − 2 in its denominator) and s_x² that of all N; bounds by
-/// Student's t with n − 2 degrees of freedom. Where x does not vary over the n it is left out. From
-/// kFewestPairsForTiers pairs, 95 % intervals hold 93 to 97 % (results/coverage).
+/// Student's t with n − 2 degrees of freedom. Where x or y does not vary over the n but for
+/// rounding, x is left out. From kFewestPairsForTiers pairs, 95 % intervals hold 93 to 97 %
+/// (results/coverage).
 /// @pre n ≥ 4, N ≥ n.
 TieredEstimate tiered_mean(const TieredSample& sample, double confidence);
 /// Half the width of the bounds of such a mean from n and N members: t √(s_e² / n + β² s_x² / N).

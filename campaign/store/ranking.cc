@@ -119,13 +119,18 @@ std::string default_order_sql(const Store::RankingQuery& query) {
   return query.skip > 0 ? sql + concat(" OFFSET ", query.skip) : sql;
 }
 
+/// Whether a query asks for all results of a campaign.
+bool selects_all(const Store::RankingQuery& query) {
+  return query.where.text.empty() && query.stage.empty() && !query.fault;
+}
+
 /// Whether any case of the campaign that the query selects is plane strain, or is not.
 bool has_kind(Connection& db, std::int64_t campaign, const Store::RankingQuery& query,
               bool plane_strain) {
   const char* of_kind =
       plane_strain ? " m.plane_strain = 1 LIMIT 1" : " m.plane_strain = 0 LIMIT 1";
   const auto found =
-      query.where.text.empty()
+      selects_all(query)
           ? db.find<int>(concat("SELECT 1 FROM case_metrics m CROSS JOIN campaign_cases cc"
                                 " ON cc.case_id = m.case_id AND cc.campaign_id = ? WHERE",
                                 of_kind),
@@ -378,7 +383,7 @@ Store::Kinds Store::kinds(std::int64_t campaign, const RankingQuery& query) cons
   Kinds kinds;
   kinds.plane_strain = has_kind(*connection_, campaign, {}, true);
   kinds.total = has_kind(*connection_, campaign, {}, false);
-  if (kinds.plane_strain && kinds.total && !query.where.text.empty()) {
+  if (kinds.mixed() && !selects_all(query)) {
     kinds.plane_strain = has_kind(*connection_, campaign, query, true);
     kinds.total = has_kind(*connection_, campaign, query, false);
   }

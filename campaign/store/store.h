@@ -215,7 +215,7 @@ class Store {
     bool plane_strain = false, total = false;
     bool mixed() const { return plane_strain && total; }
   };
-  /// Of the campaign's cases that `where` of the query selects.
+  /// Of the campaign's results that `where`, `stage` and `fault` of the query select.
   Kinds kinds(std::int64_t campaign, const RankingQuery& query) const;
   /// Stages that have metrics; "" is the whole history.
   std::vector<NamedId> stages(std::int64_t campaign) const;

@@ -105,6 +105,25 @@ TEST_F(AnswersTest, PartsHaveAllRowsWhateverTheirNumber) {
   EXPECT_EQ(n_holds, probability({.condition = "F1.slides"}).shares.at(0).counts.n_holds);
 }
 
+/// Of 60 offsets 25 are the same: they stand in one part.
+TEST_F(AnswersTest, PartsDoNotSplitEqualValues) {
+  std::vector<std::array<double, 2>> values = even(60);
+  for (std::size_t k = 0; k < 60; ++k)
+    values[k][1] = k % 12 < 5 ? 100 : 10 * static_cast<double>(k) + 1;
+  submit("monte-carlo", values);
+  record();
+  const Probability parts = probability({.condition = "F1.slides", .by = "offset"});
+  long n = 0, n_parts_of_it = 0;
+  for (const Share& one : parts.shares) {
+    n += one.counts.n;
+    n_parts_of_it += one.label.find("100 ") != std::string::npos ? 1 : 0;
+    EXPECT_GT(one.counts.n, 0);
+  }
+  EXPECT_EQ(n, 60);
+  EXPECT_EQ(n_parts_of_it, 1);
+  EXPECT_LT(parts.shares.size(), 10u);
+}
+
 /// To halve the distance between the bounds takes as many cases as bring the half of it.
 TEST_F(AnswersTest, HalfTheDistanceBetweenTheBoundsIsReachedWithTheCasesSaid) {
   submit("monte-carlo", even(40));

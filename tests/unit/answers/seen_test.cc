@@ -45,6 +45,27 @@ TEST(Seen, SlidingHasATimeWithAnError) {
   EXPECT_TRUE(read("F1 slid before 6 yr").is_exact());
 }
 
+TEST(Seen, NamesOfFaultsMayStandInQuotes) {
+  EXPECT_EQ(read("\"Fault 2\" slid before 8 yr").fault, 8);
+  EXPECT_EQ(read("no event of Mw 3 on 'Fault 2'").fault, 8);
+  EXPECT_EQ(read("\"F1\" did not slide before 8 yr").fault, 7);
+  EXPECT_THROW(read("\"Fault 3\" slid before 8 yr"), faultsim::InputError);
+  EXPECT_THROW(read("\"Fault 2 slid before 8 yr"), faultsim::InputError);
+}
+
+/// Of 50,000 letters the calls within calls of std::regex_match ended the program.
+TEST(Seen, AStatementWithoutEndIsRefused) {
+  try {
+    read("F1 slid before " + std::string(50000, '8') + " yr");
+    ADD_FAILURE() << "it was read";
+  } catch (const faultsim::InputError& wrong) {
+    EXPECT_THAT(wrong.what(), ::testing::HasSubstr("has 50018 characters; write at most 2000"));
+    EXPECT_LT(std::string(wrong.what()).size(), 300u);
+  }
+  EXPECT_THROW(read(std::string(50000, 'x') + "±"), faultsim::InputError);
+  EXPECT_NO_THROW(read("F1.slides" + std::string(1900, ' ') + "or chi_bar > 0.1"));
+}
+
 TEST(Seen, EventsHaveAMagnitudeAndAPressure) {
   CaseHistory history;
   history.events = {{1, 8, 0, -1e7, 3.2}, {1, 8, 0, -1.3e7, 2.9}, {1, 7, 0, -1e7, 5.0}};

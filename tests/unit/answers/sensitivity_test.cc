@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "campaign/answers/quantiles.h"
 #include "campaign/answers/sensitivity.h"
 #include "campaign/render/render.h"
 #include "tests/unit/answers/answers_fixture.h"
@@ -178,6 +179,44 @@ TEST_F(AnswersTest, ASobolDesignOfSecondOrderHasTheSameIndices) {
   EXPECT_NEAR(chi_bar.sobol.at(0).total.value, 1, 3 * chi_bar.sobol.at(0).total.standard_error);
   EXPECT_NEAR(chi_bar.sobol.at(1).first.value, 0, 4 * chi_bar.sobol.at(1).first.standard_error);
   EXPECT_NEAR(chi_bar.sobol.at(1).total.value, 0, 1e-12);
+}
+
+/// Every second case is plane strain: its moments are per metre, and --where tells them apart.
+TEST_F(AnswersTest, OfAMixedCampaignOneKindCanBeChosen) {
+  submit("monte-carlo", even(300));
+  for (std::size_t k = 0; k < runs_.size(); k += 2) runs_[k].result->plane_strain = true;
+  // Only those in three dimensions have F3, and a last stage.
+  for (std::size_t k = 1; k < runs_.size(); k += 2) {
+    faultsim::CaseResult& result = *runs_[k].result;
+    result.fault_names.push_back("F3");
+    result.stages.push_back(result.stages.back());
+    result.stages.back().stage = "abandonment";
+    for (faultsim::StepResult& step : result.steps) step.faults.push_back(step.faults.back());
+    for (faultsim::StageMetrics& stage : result.stages) {
+      stage.faults.push_back(stage.faults.back());
+      stage.faults.back().fault = "F3";
+    }
+    result.whole.faults.push_back(result.whole.faults.back());
+    result.whole.faults.back().fault = "F3";
+  }
+  record();
+  const auto is_plane = [&](const SampledCases& cases) {
+    return analyse_sensitivity(*store_, campaign_, {.cases = cases, .metrics = "moment"})
+        .plane_strain;
+  };
+  EXPECT_TRUE(is_plane({.where = "plane_strain"}));
+  EXPECT_FALSE(is_plane({.where = "not plane_strain"}));
+  EXPECT_FALSE(is_plane({.stage = "abandonment"}));
+  EXPECT_FALSE(is_plane({.fault = "F3"}));
+  EXPECT_THROW(is_plane({}), InputError);
+  EXPECT_THROW(is_plane({.stage = "gas_storage", .fault = "F1"}), InputError);
+  const auto quantiles = [&](const std::string& where) {
+    return find_quantiles(*store_, campaign_, {.metrics = "moment", .where = where});
+  };
+  EXPECT_EQ(quantiles("plane_strain").metrics.at(0).n, 150);
+  EXPECT_TRUE(quantiles("plane_strain").plane_strain);
+  EXPECT_FALSE(quantiles("not plane_strain").plane_strain);
+  EXPECT_THROW(quantiles("strength > 0.2"), InputError);
 }
 
 TEST_F(AnswersTest, TooFewCasesAreRefused) {

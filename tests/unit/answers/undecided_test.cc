@@ -5,8 +5,10 @@
 
 #include "campaign/answers/curves.h"
 #include "campaign/answers/posterior.h"
+#include "campaign/answers/quantiles.h"
 #include "campaign/render/render.h"
 #include "tests/unit/answers/answers_fixture.h"
+#include "tests/unit/answers/renderings.h"
 
 namespace faultsweep {
 namespace {
@@ -67,6 +69,65 @@ TEST_F(Undecided, WhereTheMeasuredErrorReachesOverTheThreshold) {
   EXPECT_EQ(c.n_undecided, 4) << "0.4625, 0.4875, 0.5125, 0.5375";
   EXPECT_EQ(c.n_yes, 18);
   EXPECT_EQ(c.n_holds, 20);
+}
+
+/// χ̄ = (k + ½) / 200 is as computed whatever an event does, the slip of the fault is not.
+TEST_F(Undecided, QuantilesAllowForWhatTheCellsLeaveOpen) {
+  submit("monte-carlo", even(200));
+  for (const std::size_t k : {20u, 150u, 151u})
+    runs_[k].result->outcome = faultsim::Outcome::unresolved_event;
+  record();
+  const auto median = [&](const std::string& metric) {
+    return find_quantiles(*store_, campaign_, {.metrics = metric, .at = {0.5}}).metrics.at(0);
+  };
+  EXPECT_EQ(median("F1.chi_bar").n_unresolved, 0);
+  EXPECT_NEAR(median("F1.chi_bar").values.at(0).low.value(), 0.4275, 1e-12);
+  const MetricQuantiles slip = median("F1.max_slip");
+  EXPECT_EQ(slip.n_unresolved, 3);
+  EXPECT_EQ(slip.n, 200);
+  std::vector<double> all, resolved;
+  for (std::size_t k = 0; k < 200; ++k) {
+    all.push_back(std::max(0.0, 0.01 * ((static_cast<double>(k) + 0.5) / 200 - 0.5)));
+    if (k != 20 && k != 150 && k != 151) resolved.push_back(all.back());
+  }
+  EXPECT_NEAR(slip.values.at(0).estimate, quantile_bounds(all, 0, 0.5, 0.95).estimate, 1e-12);
+  EXPECT_NEAR(slip.values[0].high.value(), quantile_bounds(resolved, 3, 0.5, 0.95).high.value(),
+              1e-12);
+  EXPECT_GT(slip.values[0].high.value(), quantile_bounds(all, 0, 0.5, 0.95).high.value());
+  const Answer answer =
+      to_answer(find_quantiles(*store_, campaign_, {.metrics = "F1.max_slip", .at = {0.5}}));
+  testing::expect_same_renderings(answer);
+  EXPECT_THAT(render_text(answer, 200),
+              HasSubstr("In 3 cases the cells leave F1.max_slip undecided: the quantile takes them "
+                        "as computed, bounds allow for any value."));
+}
+
+TEST_F(Undecided, QuantilesOfWhatIsAllUndecidedHaveNoBounds) {
+  submit_forty();
+  for (RunRecord& one : runs_) one.result->outcome = faultsim::Outcome::unresolved_event;
+  record();
+  const Quantiles found =
+      find_quantiles(*store_, campaign_, {.metrics = "max_slip, F1.chi_bar", .at = {0.5}});
+  EXPECT_EQ(found.metrics.at(0).n_unresolved, 40);
+  EXPECT_FALSE(found.metrics[0].values.at(0).low);
+  EXPECT_FALSE(found.metrics[0].values[0].high);
+  EXPECT_EQ(found.metrics.at(1).n_unresolved, 0);
+  EXPECT_THAT(render_text(to_answer(found), 200), HasSubstr("(open to open)"));
+}
+
+TEST_F(Undecided, QuantilesAreAsFarOffAsTheMeasuredErrorIs) {
+  submit("monte-carlo", even(200));
+  record();
+  TradeRecord trade{1e9, "sweep.json", "tradeoff-sweep", "0", "{}", {}};
+  trade.error_bars = {{"sweep", "screening", "chi_bar", "standard", 32, 0.02, 0.05}};
+  store_->record_trade(trade);
+  const Quantiles found =
+      find_quantiles(*store_, campaign_, {.metrics = "F1.chi_bar", .at = {0.5}});
+  EXPECT_NEAR(found.metrics.at(0).values.at(0).low.value(), 0.4275 - 0.05, 1e-12);
+  EXPECT_NEAR(found.metrics[0].values[0].high.value(), 0.5725 + 0.05, 1e-12);
+  EXPECT_NEAR(found.metrics[0].values[0].estimate, 0.5, 1e-9);
+  EXPECT_THAT(render_text(to_answer(found), 200),
+              HasSubstr("further away by its largest measured error of 0.05."));
 }
 
 TEST_F(Undecided, SharesOfAGridAreWhatWasRun) {

@@ -44,7 +44,7 @@ TEST_F(AnswersTest, WhyListsWhatOneParameterAloneChanges) {
   const Answer answer = to_answer(found);
   const std::string text = render_text(answer, 1000);
   EXPECT_THAT(text, HasSubstr("Case 1 of sweep (strength = 0.8, offset = 100 m, rule = mean) "
-                              "ranks 2 of 9 complete histories: activated_area = 4.5e+04 m²."));
+                              "ranks 2 of 9 complete histories: activated_area = 45000 m²."));
   EXPECT_THAT(text,
               HasSubstr("F1 slides first in primary_production, load step 1 (year 1), at 2000 "
                         "m depth: west has changed by -10 bar (190 bar absolute)"));

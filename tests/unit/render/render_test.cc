@@ -111,7 +111,15 @@ TEST(Shown, HasTheDigitsThatTheErrorAllows) {
   EXPECT_EQ(with_error(0.83172, 0.0213), "0.83 ± 0.02");
   EXPECT_EQ(with_error(0.83172, 0.0951), "0.8 ± 0.1");
   EXPECT_EQ(with_error(12.345, 3.2), "12 ± 3");
-  EXPECT_EQ(with_error(12345.0, 320), "1.23e+04 ± 3e+02");
+  EXPECT_EQ(with_error(12345.0, 320), "12300 ± 300");
+  EXPECT_EQ(with_error(33.3, 10.4), "33 ± 10");
+  EXPECT_EQ(with_error(-0.2, 23), "0 ± 20");
+  EXPECT_EQ(with_error(4.2e8, 2.3e6), "4.2e+08 ± 2e+06");
+  EXPECT_EQ(format_number(250, 2), "250");
+  EXPECT_EQ(format_number(-12345, 2), "-12000");
+  EXPECT_EQ(format_number(9.9996e6, 4), "1e+07");
+  EXPECT_EQ(format_number(1.3e15), "1.3e+15");
+  EXPECT_EQ(short_number("1234567.125 m"), "1234567 m");
   EXPECT_EQ(with_error(0.5, 0), "0.5 ± 0");
   EXPECT_EQ(with_error(-1e-9, 0.01), "-0.00 ± 0.01");
 }

@@ -89,6 +89,25 @@ TEST(TieredMean, LeavesOutACheapModelThatSaysNothing) {
   EXPECT_EQ(found.n_equivalent, 5);
 }
 
+/// The mean of 45 ones, summed as 45 parts, is not 1 to the last bit, nor are their deviations 0.
+TEST(TieredMean, LeavesOutWhatDiffersByRoundingOnly) {
+  for (const std::size_t n : {40u, 45u, 50u, 60u, 64u, 100u}) {
+    std::vector<double> low(n, 1.0), high;
+    low.resize(4 * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) high.push_back(0.1 * static_cast<double>(i % 7));
+    const TieredEstimate found = tiered_mean({high, low}, 0.95);
+    EXPECT_EQ(found.weight, 0) << n;
+    EXPECT_EQ(found.correlation, 0) << n;
+    EXPECT_EQ(found.estimate.value, found.direct.value) << n;
+    EXPECT_EQ(found.estimate.standard_error, found.direct.standard_error) << n;
+  }
+  std::vector<double> low, high(45, 0.3);
+  for (int i = 0; i < 90; ++i) low.push_back(i);
+  const TieredEstimate equal = tiered_mean({high, low}, 0.95);
+  EXPECT_EQ(equal.correlation, 0);
+  EXPECT_EQ(equal.n_equivalent, 45);
+}
+
 TEST(TieredMean, IsSurerThanTheDearRunsAlone) {
   std::mt19937_64 random(2);
   const Tiers tiers(100, 10000, 0.05, random);
