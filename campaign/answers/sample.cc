@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -20,6 +21,9 @@ void collect_designs(const json& design, std::vector<json>& designs) {
   }
   for (const json& one : design.at("designs")) collect_designs(one, designs);
 }
+
+/// The value of a parameter that a case's group does not have: below all values, and like itself.
+constexpr double kOfNoGroup = -std::numeric_limits<double>::infinity();
 
 // What derived_parameters() says.
 constexpr char kDerived = 1, kName = 2;
@@ -48,7 +52,7 @@ class SampleReader {
     sample_.n_early += row.rank_class && !row.complete() ? 1 : 0;
     if (!row.complete() && keep_ == Keep::what_tells) return;
     sample_.n_unresolved += row.complete() && *row.rank_class == 1 ? 1 : 0;
-    for (std::vector<double>& one : sample_.x) one.push_back(-1);  // of no group
+    for (std::vector<double>& one : sample_.x) one.push_back(kOfNoGroup);
     for (const CaseParameter& one : row.parameters) {
       const auto p = static_cast<std::size_t>(one.index);
       const auto word = static_cast<double>(words_[p].size());  // where it comes first

@@ -54,7 +54,8 @@ class SampleRows {
 struct Sample {
   std::vector<StoredParameter> parameters;  ///< those that vary and are chosen by its designs.
   std::vector<std::string> derived;         ///< that vary, but follow from these: left out.
-  std::vector<std::vector<double>> x;       ///< per parameter: SI; words by their first place.
+  std::vector<std::vector<double>> x;       ///< per parameter: SI; words by their first place;
+                                            ///< −∞ where a case's group does not have it.
   std::vector<ScopedMetric> outputs;
   std::vector<std::vector<double>> y;  ///< per output; NaN where a full history has no value.
   long n_rows = 0;                     ///< selected, with those that are left out.

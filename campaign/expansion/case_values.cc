@@ -1,6 +1,7 @@
 #include "campaign/expansion/case_values.h"
 
 #include <limits>
+#include <utility>
 
 #include "campaign/common/names.h"
 #include "campaign/spec/pointers.h"
@@ -11,6 +12,20 @@ namespace {
 Value as_value(const Choice& choice) {
   if (choice.si) return *choice.si;
   return choice.text;
+}
+
+/// Whether a change puts something at a pointer, by itself or within what it puts above it.
+bool sets(const Change& change, const std::string& pointer) {
+  return change.pointer.size() <= pointer.size() && overlap(change.pointer, pointer);
+}
+
+/// What a change puts at a pointer; null where what it puts above it has no single value there.
+/// @pre sets(change, pointer)
+const nlohmann::json* value_set(const Change& change, const std::string& pointer) {
+  if (change.pointer == pointer) return &change.value;
+  const nlohmann::json* value =
+      faultsim::value_at(change.value, std::string_view(pointer).substr(change.pointer.size()));
+  return value != nullptr && value->is_primitive() && !value->is_null() ? value : nullptr;
 }
 
 }  // namespace
@@ -28,13 +43,14 @@ CaseValues::CaseValues(const CampaignSpec& spec, const Group& group) : spec_(spe
   }
   for (const Derived& one : spec.derived) derived_.push_back(sources_of(one.expression));
   for (const Exclusion& one : spec.exclude) exclude_.push_back(sources_of(one.expression));
+  if (!problems_.empty()) throw InputError(spec.source, std::exchange(problems_, {}));
 }
 
-std::vector<CaseValues::Source> CaseValues::sources_of(const Expression& expression) const {
+std::vector<CaseValues::Source> CaseValues::sources_of(const Expression& expression) {
   return mapped(expression.names(), [&](const std::string& name) { return source_of(name); });
 }
 
-CaseValues::Source CaseValues::source_of(const std::string& name) const {
+CaseValues::Source CaseValues::source_of(const std::string& name) {
   Source source;
   for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
     const Parameter& parameter = group_.parameters[p];
@@ -57,32 +73,56 @@ CaseValues::Source CaseValues::source_of(const std::string& name) const {
   for (std::size_t d = 0; d < spec_.derived.size(); ++d) {
     if (spec_.derived[d].scene_pointer == pointer) source.derived = static_cast<int>(d);
   }
-  // Changed by a parameter of another name: a factor, a variant, a list of pointers.
+  if (source.derived < 0 && !pointer.empty()) follow_changes(name, pointer, source);
+  return source;
+}
+
+/// Changed by a parameter of another name: a factor, a variant, a list of pointers. It may change
+/// the object around the value.
+void CaseValues::follow_changes(const std::string& name, const std::string& pointer,
+                                Source& source) {
   const auto info = infos_.find(pointer);
-  for (std::size_t p = 0; p < group_.parameters.size() && !pointer.empty(); ++p) {
+  if (info == infos_.end()) return;
+  for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
     const Parameter& parameter = group_.parameters[p];
     bool touched = false;
     std::vector<Value> values;
     for (const Choice& choice : parameter.choices) {
       values.push_back(source.base);
-      for (const Change& change : choice.changes) {
-        if (change.pointer != pointer) continue;
-        touched = true;
-        const std::string text = scalar_text(change.value);
-        if (info == infos_.end()) continue;
-        const auto parsed = faultsim::parse_quantity(text, info->second.dimension);
-        values.back() = info->second.is_text ? Value(text)
-                        : parsed.ok          ? Value(parsed.value)
-                                             : Value();
+      const Change* last = nullptr;
+      for (const Change& change : choice.changes)
+        if (sets(change, pointer)) last = &change;
+      if (last == nullptr) continue;
+      touched = true;
+      const nlohmann::json* value = value_set(*last, pointer);
+      if (value == nullptr) {
+        refuse_lost(name, pointer, choice, *last);
+        continue;
       }
+      const std::string text = scalar_text(*value);
+      const auto parsed = faultsim::parse_quantity(text, info->second.dimension);
+      values.back() = info->second.is_text ? Value(text)
+                      : parsed.ok          ? Value(parsed.value)
+                                           : Value();
     }
     if (!touched) continue;
     source.parameter = static_cast<int>(p);
     source.choices = std::move(values);
     source.drawn = &parameter.drawn;
-    break;
+    return;
   }
-  return source;
+}
+
+/// What the case has instead is for the scene to say: it may be a default, or nothing.
+void CaseValues::refuse_lost(const std::string& name, const std::string& pointer,
+                             const Choice& choice, const Change& change) {
+  if (contains(problems_, choice.pointer, &Problem::pointer)) return;
+  problems_.push_back(
+      {choice.pointer, spec_.document.line_of(choice.pointer),
+       concat("replaces the whole of ", change.pointer, " without ", pointer,
+              ", but an expression of the spec uses ", spelled_name(name)),
+       concat("add ", pointer.substr(change.pointer.size() + 1),
+              " to it, or vary only the parts of ", change.pointer, " that differ")});
 }
 
 Value CaseValues::value_of(const Source& source, const Row& row,

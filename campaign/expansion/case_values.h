@@ -12,6 +12,8 @@ namespace faultsweep {
 /// Gives the names in a spec's expressions their values, case by case, for one group.
 class CaseValues {
  public:
+  /// Throws InputError where a value replaces the object around what a name stands for by one that
+  /// has no such value.
   CaseValues(const CampaignSpec& spec, const Group& group);
 
   /// Computes the derived parameters of a row (SI); NaN where one has no value.
@@ -28,8 +30,11 @@ class CaseValues {
     const std::vector<DrawnValue>* drawn = nullptr;
     Value base;  ///< the value otherwise.
   };
-  Source source_of(const std::string& name) const;
-  std::vector<Source> sources_of(const Expression& expression) const;
+  Source source_of(const std::string& name);
+  std::vector<Source> sources_of(const Expression& expression);
+  void follow_changes(const std::string& name, const std::string& pointer, Source& source);
+  void refuse_lost(const std::string& name, const std::string& pointer, const Choice& choice,
+                   const Change& change);
   static Value value_of(const Source& source, const Row& row, const std::vector<double>& derived);
 
   const CampaignSpec& spec_;
@@ -38,6 +43,7 @@ class CaseValues {
   std::map<std::string, Value> base_;         ///< scene pointer -> value in the group's scene.
   std::vector<std::vector<Source>> derived_;  ///< per derived parameter and name.
   std::vector<std::vector<Source>> exclude_;  ///< per exclusion and name.
+  std::vector<Problem> problems_;             ///< while these are found.
 };
 
 }  // namespace faultsweep

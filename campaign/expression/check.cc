@@ -172,11 +172,17 @@ class Checker {
     }
     node.type = Type{Kind::boolean, {}};
   }
-  /// "2 m" in quotes is text when what it is compared with is text (a group's name, say).
-  static void as_text_beside(Node& literal, const Node& other) {
-    if (other.type.kind != Kind::text || !literal.is_quoted) return;
-    literal.literal = literal.quoted;
-    literal.type = Type{Kind::text, {}};
+  /// "2 m" in quotes is text when what it is compared with is text (a group's name, say). So is
+  /// what could be a name, unless the other side is another of its kind.
+  static void as_text_beside(Node& quoted, const Node& other) {
+    if (other.type.kind != Kind::text || !quoted.is_quoted) return;
+    if (quoted.operation == Operation::name) {
+      const bool are_two_names = other.is_quoted && quoted.type.kind == Kind::text;
+      if (other.operation != Operation::name || are_two_names) return;
+    }
+    quoted.operation = Operation::literal;
+    quoted.literal = quoted.quoted;
+    quoted.type = Type{Kind::text, {}};
   }
 
   const std::string& text_;

@@ -36,7 +36,9 @@
 ///
 /// A number may carry a unit: `30 deg`, `200 bar`, `2.5e3 kg/m3`; a unit that is not one word plus
 /// "/" and words stands in quotes: `"1 Pa s"`. Quoted text that is not a number with a unit is a
-/// string. Names are letters, digits, "_" and dots. Functions: min max abs sqrt log10 exp tan.
+/// string. Names are letters, digits, "_" and dots. A known name that is not so stands in quotes:
+/// `"my offset" > 50 m`; beside a name that is text, quoted text is text all the same. Functions:
+/// min max abs sqrt log10 exp tan.
 namespace faultsweep {
 
 /// Exponents of length, mass, time and angle. Angle is a dimension of its own, so that degrees do

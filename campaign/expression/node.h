@@ -71,7 +71,7 @@ struct Node {
   std::size_t end = 0;       ///< one past the last byte of a literal or name.
   Type type;                 ///< set by the parser for literals, by check for the rest.
   Value literal;
-  std::string quoted;  ///< literal in quotes: what stood between them.
+  std::string quoted;  ///< literal or name in quotes: what stood between them.
   bool is_quoted = false;
   std::size_t name = 0;  ///< into the names.
   std::vector<std::unique_ptr<Node>> children;

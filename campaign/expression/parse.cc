@@ -20,6 +20,16 @@ bool is_keyword(std::string_view word) {
   return word == "and" || word == "or" || word == "not" || word == "true" || word == "false";
 }
 
+/// Whether an expression may have a name without quotes: letters, digits and dots before letters.
+bool can_stand_alone(std::string_view name) {
+  if (name.empty() || !is_letter(name.front()) || is_keyword(name)) return false;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool is_dot = name[i] == '.' && i + 1 < name.size() && is_letter(name[i + 1]);
+    if (!is_letter(name[i]) && !is_digit(name[i]) && !is_dot) return false;
+  }
+  return true;
+}
+
 /// A number with its unit in SI, or nothing when the unit is unknown.
 struct Quantity {
   double value = 0;
@@ -252,9 +262,19 @@ class Parser {
     return quoted->inside;
   }
 
+  /// A known name that is not a word, else a number with its unit or text.
   NodePointer parse_quoted() {
     const std::size_t start = position_;
     const std::string inside = take_quoted();
+    if (is_known(inside) && !can_stand_alone(inside)) {
+      const std::size_t end = position_;
+      skip_blanks();
+      auto node = make_name(start, inside);
+      node->end = end;
+      node->quoted = inside;
+      node->is_quoted = true;
+      return node;
+    }
     const bool may_be_number =
         is_digit(inside[0]) || std::string_view("-+.").find(inside[0]) != std::string_view::npos;
     const auto quantity = may_be_number ? read_quantity(inside) : std::nullopt;
@@ -364,16 +384,23 @@ class Parser {
     return stage;
   }
 
+  /// A name in quotes where it needs them; one of a fault or stage as it is known.
+  static std::string as_written(const std::string& name) {
+    const bool has_scope =
+        name.find('.') != std::string::npos || name.find(" in ") != std::string::npos;
+    return can_stand_alone(name) || has_scope ? name : spelled_name(name);
+  }
+
   void require_known(std::size_t start, const std::string& word) const {
     if (is_known(word)) return;
     require_fault(start, word);
     std::string cure;
     if (const auto near = nearest(word, known_)) {
-      cure = "did you mean " + *near + "?";
+      cure = "did you mean " + as_written(*near) + "?";
     } else {
       cure = known_.empty() ? "no names are known here" : "known names:";
       for (std::size_t i = 0; i < std::min<std::size_t>(known_.size(), 12); ++i) {
-        cure += (i == 0 ? " " : ", ") + known_[i];
+        cure += (i == 0 ? " " : ", ") + as_written(known_[i]);
       }
       if (known_.size() > 12) cure += ", ...";
     }

@@ -1,6 +1,5 @@
 #include "campaign/rounds/answers_of.h"
 
-#include <set>
 #include <unordered_map>
 
 #include "campaign/common/json.h"
@@ -12,15 +11,19 @@ namespace faultsweep {
 
 namespace {
 
-/// Cases in which a condition on the results is true, by position.
-std::set<long> positions_where(const Store& store, const CampaignInfo& campaign,
-                               const Question& question) {
-  std::set<long> positions;
-  if (store.faults(campaign.id).empty()) return positions;  // no case has a result
+/// What is known of a question, by position; not known of cases that are not there.
+std::unordered_map<long, Held> held_by_position(const Store& store, const CampaignInfo& campaign,
+                                                const Question& question) {
+  std::unordered_map<long, Held> held;
+  if (store.faults(campaign.id).empty()) return held;  // no case has a result
   const Selection selection = make_selection(store, campaign, question.stage, question.fault);
-  store.for_each_case(campaign.id, case_query(campaign, selection, question.condition),
-                      [&](const CaseRow& row) { positions.insert(row.position); });
-  return positions;
+  const VerdictColumns verdict(store, campaign, selection, {question.condition});
+  Store::TableQuery query = case_query(campaign, selection, "");
+  query.columns = verdict.columns();
+  store.for_each_case(campaign.id, query, [&](const CaseRow& row) {
+    held.emplace(row.position, verdict.held(row, 0));
+  });
+  return held;
 }
 
 /// A row for each of `design_rows`, or for each case.
@@ -28,8 +31,8 @@ std::vector<RowAnswers> stored_answers(const Store& store, const CampaignInfo& c
                                        const std::vector<RoundRecord>& rounds,
                                        const std::vector<Question>& questions, bool by_design_row,
                                        std::unordered_map<std::string, std::size_t>& by_identity) {
-  std::vector holds =
-      mapped(questions, [&](const Question& one) { return positions_where(store, campaign, one); });
+  const std::vector known = mapped(
+      questions, [&](const Question& one) { return held_by_position(store, campaign, one); });
   Store::TableQuery query;
   query.by_design_row = by_design_row;
   std::vector<RowAnswers> answers;
@@ -43,8 +46,10 @@ std::vector<RowAnswers> stored_answers(const Store& store, const CampaignInfo& c
     one.parameters = row.parameters;
     one.failed = row.state == "failed";
     one.complete = row.complete();
-    for (const std::set<long>& positions : holds)
-      one.holds.push_back(one.complete && positions.contains(row.position));
+    for (const auto& held : known) {
+      const auto found = held.find(row.position);
+      one.held.push_back(found == held.end() ? Held::unknown : found->second);
+    }
     by_identity.emplace(row.identity, answers.size());
     answers.push_back(std::move(one));
   });

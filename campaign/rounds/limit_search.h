@@ -20,7 +20,7 @@ enum class PointState {
 struct SearchPoint {
   double value = 0;
   PointState state = PointState::unknown;
-  bool resolved = true;  ///< its state does not depend on the cells.
+  bool resolved = true;  ///< its state does not depend on cells and stated errors.
   long position = 0;     ///< of its case in the campaign, from 1; 0 = it has none.
 };
 

@@ -25,13 +25,15 @@ double spelled_number(const ordered_json& value) {
                            : std::strtod(value.get_ref<const std::string&>().c_str(), nullptr);
 }
 
-/// Whether the flag of a condition depends on the cells, as a condition.
-std::string doubt_of(const std::string& unsafe) {
-  const auto has = [&](const char* word) { return unsafe.find(word) != std::string::npos; };
-  const bool slides = has("slides") || has("activated"), events = has("event");
-  if (slides && events) return "not activation_resolved or not weakening_resolved";
-  if (slides) return "not activation_resolved";
-  return events ? "not weakening_resolved" : "1 > 2";
+SearchPoint point_of(double value, const RowAnswers* answer, std::size_t question) {
+  if (answer == nullptr) return {value, PointState::unknown, true, 0};
+  const Held held = answer->held.at(question);
+  SearchPoint point{value, PointState::unknown, true, answer->position};
+  if (held == Held::unknown) return point;
+  const bool is_unsafe = held == Held::yes || held == Held::undecided_yes;
+  point.state = is_unsafe ? PointState::unsafe : PointState::safe;
+  point.resolved = held == Held::yes || held == Held::no;
+  return point;
 }
 
 std::string counts_text(const std::vector<LimitSearcher::Search>& searches) {
@@ -57,10 +59,8 @@ std::string counts_text(const std::vector<LimitSearcher::Search>& searches) {
 std::vector<Question> LimitSearcher::questions() const {
   std::vector<Question> all;
   for (const LimitSearch& limit : limits_) {
-    for (const std::string& fault : limit.faults) {
+    for (const std::string& fault : limit.faults)
       all.push_back({limit.unsafe, fault, limit.stage, limit.pointer + "/unsafe"});
-      all.push_back({doubt_of(limit.unsafe), fault, limit.stage, limit.pointer + "/unsafe"});
-    }
   }
   return all;
 }
@@ -105,23 +105,16 @@ std::vector<LimitSearcher::Search> LimitSearcher::search(
   std::size_t n_questions = 0;
   for (const LimitSearch& limit : limits_) {
     first_question.push_back(n_questions);
-    n_questions += 2 * limit.faults.size();
+    n_questions += limit.faults.size();
   }
   std::vector<Search> searches;
   for (const auto& [key, values] : tried) {
     const auto& [configuration, l] = key;
     const LimitSearch& limit = limits_[l];
     for (std::size_t fault = 0; fault < limit.faults.size(); ++fault) {
-      const std::size_t question = first_question[l] + 2 * fault;
       std::vector<SearchPoint> points;
-      for (const auto& [number, answer] : values) {
-        SearchPoint point{number, PointState::unknown, true, answer ? answer->position : 0};
-        if (answer != nullptr && answer->complete) {
-          point.state = answer->holds.at(question) ? PointState::unsafe : PointState::safe;
-          point.resolved = !answer->holds.at(question + 1);
-        }
-        points.push_back(point);
-      }
+      for (const auto& [number, answer] : values)
+        points.push_back(point_of(number, answer, first_question[l] + fault));
       const bool ascending = limit.scan.back() > limit.scan.front();
       searches.push_back(
           {configuration, l, fault, judge(std::move(points), ascending, limit.tolerance)});

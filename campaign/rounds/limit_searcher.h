@@ -10,8 +10,8 @@ namespace faultsweep {
 /// that is still too wide; cases that several of them ask for are one.
 ///
 /// The answers' rows are those of the design with the values of its round in each of its rows (see
-/// Design::without_base), and RowAnswers::holds has for each fault of each limit whether it is
-/// unsafe and whether that depends on the cells.
+/// Design::without_base), and RowAnswers::held has for each fault of each limit whether it is
+/// unsafe.
 class LimitSearcher final : public Proposer {
  public:
   /// @param limits  with all their faults named.

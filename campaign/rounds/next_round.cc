@@ -54,10 +54,6 @@ bool add_next_round(Store& store, const std::string& name) {
     const long n_new =
         store.record_round(campaign.id, round, proposal.design.dump(), proposal.reason);
     if (n_new > 0) return true;
-    if (!has_limits) {
-      store.conclude(campaign.id, concat(proposal.reason, "; the next round has no new case"));
-      return false;
-    }
     stored = stored_rounds(store, campaign);  // its cases were there: they are answers already
   }
 }

@@ -6,8 +6,8 @@
 namespace faultsweep {
 
 /// Adds the next round of a campaign whose cases are all decided, in one transaction; false where
-/// there is none, and why is then CampaignInfo::conclusion. A round that would add no case ends the
-/// campaign too. Throws InputError where a proposed scene is wrong.
+/// there is none, and why is then CampaignInfo::conclusion. A round all of whose rows are cases
+/// that the campaign has is answered at once. Throws InputError where a proposed scene is wrong.
 bool add_next_round(Store& store, const std::string& name);
 
 /// Throws InputError where the spec's rounds ask for what results of its scenes will not have.

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "campaign/query/verdict_columns.h"
 #include "campaign/spec/spec.h"
 #include "campaign/store/records.h"
 
@@ -18,9 +19,9 @@ struct RowAnswers {
   long row = 0;       ///< of its round's designs, from 0; 0 where rows are not asked for.
   long position = 0;  ///< of its case, from 1; rows that are the same case share it.
   CaseParameters parameters;
-  bool failed = false;      ///< its case has no result: its last run failed.
-  bool complete = false;    ///< it has a history to its end.
-  std::vector<bool> holds;  ///< per question: complete, and it is true.
+  bool failed = false;     ///< its case has no result: its last run failed.
+  bool complete = false;   ///< it has a history to its end.
+  std::vector<Held> held;  ///< per question.
 };
 
 /// A condition as of `rank --where`, of a fault and a stage where it names none itself.

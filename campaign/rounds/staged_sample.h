@@ -5,8 +5,10 @@
 namespace faultsweep {
 
 /// Draws further samples of a monte-carlo design until the interval of a probability is narrow
-/// enough, or there are as many as allowed. A sample whose case failed, or whose history ends
-/// early, may be either: the interval reaches from none of these to all of them.
+/// enough, or there are as many as allowed. A sample that cells or stated errors leave undecided,
+/// whose case failed, or whose history ends early, may be either: the interval reaches from none of
+/// these to all of them. More samples do not narrow that part. So what is narrow enough is the
+/// interval of what was computed.
 ///
 /// A round has what is missing if the share stays as it is, at most as many samples as there are
 /// and at least a tenth. The confidence is that of one interval; as the end is chosen by looking at

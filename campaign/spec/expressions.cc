@@ -9,12 +9,6 @@ namespace {
 
 using faultsim::ParameterInfo;
 
-bool is_name(const std::string& word) {
-  return !word.empty() && std::ranges::all_of(word, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
-  });
-}
-
 Type type_of(const ParameterInfo& info) {
   return info.is_text ? Type{Kind::text, {}} : number_type(info.dimension);
 }
@@ -30,7 +24,6 @@ void SpecReader::add_identifier(SpecIdentifier one) {
 void SpecReader::collect_identifiers() {
   for (const Group& group : spec_.groups) {
     for (const Parameter& parameter : group.parameters) {
-      if (!is_name(parameter.name)) continue;
       const Type type = parameter.is_text ? Type{Kind::text, {}} : number_type(parameter.dimension);
       const bool own = parameter.has_own_values || parameter.targets.empty();
       add_identifier({parameter.name, own ? "" : parameter.targets.front(), type});
@@ -42,7 +35,7 @@ void SpecReader::collect_identifiers() {
   }
   for (const Group& group : spec_.groups) {
     for (const ParameterInfo& info : names_of(group.scene).infos) {
-      if (is_name(info.alias)) add_identifier({info.alias, info.pointer, type_of(info)});
+      if (!info.alias.empty()) add_identifier({info.alias, info.pointer, type_of(info)});
     }
   }
   add_identifier({"group", "", Type{Kind::text, {}}});

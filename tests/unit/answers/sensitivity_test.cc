@@ -219,6 +219,21 @@ TEST_F(AnswersTest, OfAMixedCampaignOneKindCanBeChosen) {
   EXPECT_THROW(quantiles("strength > 0.2"), InputError);
 }
 
+/// A case may have −1 of what the cases of another group have not at all.
+TEST_F(FrictionAndOffset, AParameterThatAGroupLacksDiffersFromAnyValue) {
+  for (int k = 0; k < 4; ++k) {
+    CaseParameters values = both(k, -1);
+    if (k < 2) values.pop_back();
+    add_case(values, testing::made_up_result(0.2 + 0.1 * k));
+  }
+  submit_as("grid");
+  record();
+  const Sample sample = read_sample(*store_, campaign_, {}, "F1.chi_bar");
+  ASSERT_EQ(sample.x.size(), 2u) << "it varies";
+  EXPECT_LT(sample.x[1][0], -1e300);
+  EXPECT_EQ(sample.x[1][2], -1);
+}
+
 TEST_F(AnswersTest, TooFewCasesAreRefused) {
   submit("monte-carlo", even(10));
   record();

@@ -201,6 +201,51 @@ TEST(Expansion, ExclusionsSeeFactorsVariantsAndGroups) {
   expect_true_identities(all, 1);
 }
 
+/// A variant may replace the object that has the value: the case has what is in there.
+TEST(Expansion, ExpressionsSeeValuesWithinReplacedObjects) {
+  const char* strengths = R"({"strength": {"variants": {
+      "weak": {"/friction": {"friction_angle": "10 deg", "cohesion": "0 MPa"}},
+      "strong": {"/friction": {"friction_angle": "28 deg", "cohesion": "0 MPa"}}}},
+      "offset": ["0 m", "100 m"]})";
+  const auto derived = expand_grid(
+      strengths, R"("derived": {"ratio_along": "0.5 + friction_angle / (100 deg)"
+}, )");
+  EXPECT_NEAR(scene_of(derived, derived.cases[0])["initial_state"]["ratio_along"], 0.6, 1e-12);
+EXPECT_NEAR(scene_of(derived, derived.cases[2])["initial_state"]["ratio_along"], 0.78, 1e-12);
+const auto excluded = expand_grid(strengths, R"("exclude": ["friction_angle < 15 deg"], )");
+EXPECT_EQ(excluded.case_of_row[0], (std::vector<int>{-1, -1, 0, 1}));
+}
+
+TEST(Expansion, AReplacedObjectWithoutTheValueThatAnExpressionUsesIsRefused) {
+  try {
+    expand_grid(R"({"strength": {"variants": {
+        "weak": {"/friction": {"friction_angle": "10 deg"}},
+        "strong": {"/friction": {"friction_angle": "28 deg", "cohesion": "1 MPa"}}}}})",
+                R"("exclude": ["cohesion > 2 MPa", "cohesion < 0 MPa"], )");
+    FAIL() << "accepted";
+  } catch (const faultsim::InputError& error) {
+    ASSERT_EQ(error.problems().size(), 1u) << "said once";
+    const faultsim::Problem& problem = error.problems().front();
+    EXPECT_EQ(problem.pointer, "/design/parameters/strength/variants/weak");
+    EXPECT_GT(problem.line, 0);
+    EXPECT_EQ(problem.what,
+              "replaces the whole of /friction without /friction/cohesion, but an expression of "
+              "the spec uses cohesion");
+    EXPECT_EQ(problem.cure, "add cohesion to it, or vary only the parts of /friction that differ");
+  }
+}
+
+TEST(Expansion, ExclusionsNameParametersInQuotes) {
+  const auto all = expand_grid(R"({
+      "my offset": {"pointers": ["/geometry/blocks/1/offset"], "values": ["0 m", "100 m"]},
+      "/initial_state/ratio_across": [0.5, 0.8]})",
+                               R"("exclude": ["\"my offset\" > 50 m",
+                                              "'/initial_state/ratio_across' > 0.7"], )");
+  ASSERT_EQ(all.excluded.size(), 2u);
+  EXPECT_EQ(all.excluded[0].n_cases, 2);
+  EXPECT_EQ(all.excluded[1].n_cases, 1);
+}
+
 TEST(Expansion, DerivedParametersFollow) {
   const auto all = expand_grid(R"({"ratio_across": [0.4, 0.8]})",
                                R"("derived": {"ratio_along": "ratio_across / 2",

@@ -77,6 +77,39 @@ std::string scoped_error(const std::string& text) {
   return "no error";
 }
 
+/// A name that is not a word stands in quotes; the words of a text parameter stay words.
+TEST(Expression, NamesInQuotes) {
+  Symbols all = symbols();
+  all["my offset"] = {"c_mine", number_type(Dimension::length)};
+  all["/tier"] = {"c_tier", Type{Kind::text, {}}};
+  all["/rule"] = {"c_other", Type{Kind::text, {}}};
+  all["2 m"] = {"c_2m", number_type(Dimension::length)};
+  const auto sql = [&](const std::string& text) {
+    return Expression::parse(text, all, kScopes).sql().text;
+  };
+  EXPECT_EQ(sql("\"my offset\" > 50 m"), "(c_mine > ?)");
+  EXPECT_EQ(sql("2 * 'my offset'"), "(? * c_mine)");
+  EXPECT_EQ(sql("abs(\"my offset\") < \"2 m\""), "(abs(c_mine) < c_2m)");
+  EXPECT_EQ(sql("\"/tier\" = \"standard\""), "(c_tier = ?)");
+  EXPECT_EQ(sql("\"/tier\" = \"/rule\""), "(c_tier = c_other)");
+  EXPECT_EQ(sql("rule = \"my offset\""), "(c_rule = ?)") << "text is compared with a text";
+  EXPECT_EQ(sql("rule = \"/tier\""), "(c_rule = ?)") << "as it was where no such name is known";
+  EXPECT_EQ(sql("\"my offset\" = \"/tier\""), "(? = c_tier)");
+  const auto error = [&](const std::string& text) -> std::string {
+    try {
+      Expression::parse(text, all);
+    } catch (const ExpressionError& error) {
+      return error.message();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error("my_offset > 1 m"),
+            "unknown name \"my_offset\"; did you mean \"my offset\"?\n    my_offset > 1 m\n    ^");
+  EXPECT_EQ(error("\"my offset\" = \"wide\""),
+            "my offset is a length, \"wide\" is text; compare things of one kind\n"
+            "    \"my offset\" = \"wide\"\n                  ^");
+}
+
 TEST(Expression, NamesMayBeOfAFaultAndInAStage) {
   EXPECT_EQ(scoped_sql("slip in storage > 5 mm"), "(c_slip_storage > ?)");
   EXPECT_EQ(scoped_sql("F2.slip > slip in storage"), "(c_f2 > c_slip_storage)");

@@ -210,8 +210,8 @@ class LimitSearcherTest : public ::testing::Test {
       one.position = static_cast<long>(answers_.size()) + 1;
       one.complete = true;
       const bool up = limit == 0;
-      one.holds = {up && value > edge, false, up && value > edge - 1, false,
-                   !up && value < 4,   false};
+      for (const bool is_unsafe : {up && value > edge, up && value > edge - 1, !up && value < 4})
+        one.held.push_back(is_unsafe ? Held::yes : Held::no);
       answers_.push_back(one);
     }
     designs_.push_back(design);
@@ -244,10 +244,23 @@ TEST_F(LimitSearcherTest, AllConfigurationsFaultsAndLimitsAreSearchedTogether) {
   }
 }
 
+/// What came out of an undecided case counts, but is not sure, on its own fault only.
+TEST_F(LimitSearcherTest, AnUndecidedAnswerIsNotSure) {
+  answer(json{{"kind", "grid"}}, 0);
+  answers_[1].held[1] = Held::undecided_no;   // of F2, at -50 bar
+  answers_[2].held[1] = Held::undecided_yes;  // at 0 bar
+  const auto searches = searcher_->search(answers_, designs_);
+  EXPECT_EQ(searches[0].finding.surely_safe->value, -50);
+  EXPECT_EQ(searches[0].finding.surely_unsafe->value, 0);
+  EXPECT_EQ(searches[1].finding.limit()->before.value, -50);
+  EXPECT_EQ(searches[1].finding.surely_safe->value, -100);
+  EXPECT_FALSE(searches[1].finding.surely_unsafe);
+}
+
 TEST_F(LimitSearcherTest, AFailedCaseAndOneThatWasExcludedAreNotKnown) {
   answer(json{{"kind", "grid"}}, 0);
-  answers_[1].complete = false;          // failed, at -50 bar
-  answers_.erase(answers_.begin() + 4);  // excluded, the far end of depth
+  answers_[1].held.assign(3, Held::unknown);  // failed, at -50 bar
+  answers_.erase(answers_.begin() + 4);       // excluded, the far end of depth
   const auto searches = searcher_->search(answers_, designs_);
   EXPECT_EQ(searches[0].finding.points[1].state, PointState::unknown);
   EXPECT_EQ(searches[0].finding.limit()->n_unknown, 1);

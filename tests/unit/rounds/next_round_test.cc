@@ -233,6 +233,81 @@ TEST_F(NextRound, LimitsAreFoundOnTheStore) {
   EXPECT_THAT(store.integrity_problems(), IsEmpty());
 }
 
+/// The doubt of a condition is its own: of what it names, on the fault that it names.
+TEST_F(NextRound, WhatTheCellsLeaveOpenOfALimitIsThatOfItsCondition) {
+  json spec = limit_spec();
+  spec["design"]["parameters"]["offset"] = {"0 m"};
+  spec["limits"]["top"]["tolerance"] = "25 bar";
+  const auto only_row = [&](const std::string& name, const std::string& unsafe) {
+    spec["name"] = name;
+    spec["limits"]["top"]["unsafe"] = unsafe;
+    Store store = Store::open_owner(folder_);
+    const Expansion limits = expand(parse_campaign(spec.dump(), FAULTSIM_SOURCE_DIR "/test.json"));
+    const std::int64_t id = store.submit(make_submission(limits)).campaign;
+    for (const WaitingFamily& family : store.waiting_families(id)) {
+      for (const std::int64_t one : family.cases) {
+        const bool slides = *store.stored_case(id, std::to_string(one)).parameters[1].si > -40e5;
+        RunRecord run;
+        run.case_id = one;
+        run.status = RunStatus::completed;
+        run.result = testing::made_up_result(slides ? 0.9 : 0.2);
+        run.result->weakening_resolved = false;                       // events are open
+        run.result->stages[2].faults[1].activation_resolved = false;  // F2, not F1
+        if (slides) run.result->stages[2].faults[0].n_events = run.result->stages[2].n_events = 1;
+        store.record_runs(id, {run});
+      }
+    }
+    EXPECT_FALSE(add_next_round(store, name));
+    return make_limit_table(store, store.campaign(name)).rows.at(0).cells[0]->finding;
+  };
+  const LimitFinding slides = only_row("slides", "slides");
+  EXPECT_EQ(slides.surely_safe->value, slides.limit()->before.value);
+  EXPECT_EQ(slides.surely_unsafe->value, slides.limit()->after.value);
+  const LimitFinding jumps = only_row("jumps", "jumps");
+  EXPECT_EQ(jumps.limit()->before.value, slides.limit()->before.value);
+  EXPECT_FALSE(jumps.surely_safe);
+  EXPECT_FALSE(jumps.surely_unsafe);
+  EXPECT_FALSE(only_row("others", "F2.slides in gas_storage").surely_safe);
+  EXPECT_TRUE(only_row("chi", "chi_bar > 0.5").surely_safe) << "does not hang on events";
+}
+
+/// Every further round has only cases that are known, but makes the sample larger.
+TEST_F(NextRound, RoundsOfKnownCasesAreAnsweredAtOnce) {
+  const json spec = {
+      {"format", 1},
+      {"name", "sample"},
+      {"base", "docs/examples/scenes/rotliegend.json"},
+      {"set", {{"/tier", "screening"}}},
+      {"rounds",
+       {{"probability_of", "F1.slides in gas_storage"}, {"width", 0.25}, {"most_samples", 400}}},
+      {"design",
+       {{"kind", "monte-carlo"},
+        {"samples", 20},
+        {"parameters", {{"offset", {"0 m", "100 m"}}, {"friction_angle", {"15 deg", "25 deg"}}}}}}};
+  Store store = Store::open_owner(folder_);
+  const std::int64_t id = store
+                              .submit(make_submission(expand(
+                                  parse_campaign(spec.dump(), FAULTSIM_SOURCE_DIR "/test.json"))))
+                              .campaign;
+  ASSERT_EQ(store.campaign("").n_cases, 4);
+  for (const WaitingFamily& family : store.waiting_families(id)) {
+    for (const std::int64_t one : family.cases) {
+      RunRecord run;
+      run.case_id = one;
+      run.status = RunStatus::completed;
+      run.result = testing::made_up_result(one == 4 ? 0.9 : 0.2);
+      store.record_runs(id, {run});
+    }
+  }
+  EXPECT_FALSE(add_next_round(store, "sample"));
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_cases, 4);
+  EXPECT_GT(store.rounds(id).size(), 1u);
+  EXPECT_GT(store.design_rows(id).size(), 40u);
+  EXPECT_THAT(info.conclusion, ::testing::Not(HasSubstr("wider")));
+  EXPECT_THAT(store.integrity_problems(), IsEmpty());
+}
+
 TEST_F(NextRound, ACampaignWithoutRoundsHasOne) {
   Store store = Store::open_owner(folder_);
   const std::int64_t id = store.submit(make_submission(expansion(""))).campaign;

@@ -1,4 +1,4 @@
-#include "campaign/answers/shares.h"
+#include "campaign/query/verdict_columns.h"
 
 #include "campaign/common/names.h"
 #include "campaign/query/ranking.h"
