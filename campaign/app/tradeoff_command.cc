@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 
 #include "campaign/app/commands.h"
@@ -90,8 +91,14 @@ TradeQuestion read_question(const TradeoffArguments& arguments) {
 }
 
 double memory_limit(const TradeoffArguments& arguments) {
-  if (arguments.memory.empty()) return kShareOfMemory * available_memory();
-  return static_cast<double>(parse_size("--memory", arguments.memory));
+  if (!arguments.memory.empty())
+    return static_cast<double>(parse_size("--memory", arguments.memory));
+  constexpr double kLeast = 1;  // byte; 0 would mean no limit
+  if (const auto available = available_memory())
+    return std::max(kLeast, kShareOfMemory * *available);
+  const MemoryForOperators assumed = memory_for_operators({}, physical_memory());
+  say(assumed.remark);
+  return assumed.bytes;
 }
 
 void write_report(faultsim::ResultFolder& folder, const TradeReport& report, const json& document) {

@@ -40,6 +40,14 @@ std::string caret_lines(const std::string& text, std::size_t position) {
          std::string(column, ' ') + "^";
 }
 
+/// Refuses what SQLite's parser could not take, wherever the expression is used.
+void require_flat(const Node& root, const std::string& text, std::size_t n_names) {
+  const Symbol column = {"x", {}};
+  const SqlFragment sql = sql_of(root, std::vector<Symbol>(n_names, column));
+  if (sql.depth <= kDeepestSql) return;
+  throw ExpressionError(text, root.position, "the expression is nested too deeply", "simplify it");
+}
+
 }  // namespace
 
 Units units_of(Dimension dimension) { return {faultsim::info_of(dimension).powers}; }
@@ -82,6 +90,7 @@ Expression Expression::parse(const std::string& text, const Symbols& symbols,
     expression.symbols_.push_back(symbol);
   }
   check_types(*parsed.root, text, expression.names_, types);
+  require_flat(*parsed.root, text, expression.names_.size());
   expression.root_ = std::shared_ptr<const Node>(std::move(parsed.root));
   return expression;
 }

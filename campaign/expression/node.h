@@ -60,6 +60,10 @@ struct OperationInfo {
   /// Of numbers; of one operand the other counts for nothing. @pre rule is one of numbers.
   double (*arithmetic)(double, double) = nullptr;
 };
+/// Of SqlFragment::depth: the parser has place for 100. What is left is for the statement around
+/// the expression and for the columns in it, of which some are statements themselves.
+constexpr int kDeepestSql = 45;
+
 const OperationInfo& info(Operation operation);
 std::optional<Operation> function_named(std::string_view name);
 /// Their names.
@@ -82,7 +86,7 @@ struct ParsedText {
   std::vector<std::string> names;  ///< each once, in order of appearance.
 };
 
-/// Text to tree. Throws ExpressionError on syntax and on names that are not among known_names,
+/// Text to tree. Throws ExpressionError on syntax, on what SQL could not say and on names that are not among known_names,
 /// which are in ascending order; scopes serve messages.
 ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names,
                             const Scopes& scopes);

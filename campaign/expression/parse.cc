@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::size_t kMaximumLength = 10'000;
 constexpr int kMaximumDepth = 200;
+// SQLite takes trees of 1000 levels (those of a statement in another one count twice), of which a
+// quotient has two, and functions of 127 values.
+constexpr std::size_t kMostTerms = 200;
+constexpr std::size_t kMostValues = 100;
 
 bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
@@ -141,19 +145,46 @@ class Parser {
   /// operand (operator operand)*, from left to right.
   NodePointer parse_chain(NodePointer (Parser::*operand)(), const Operators& operators) {
     auto left = (this->*operand)();
-    for (std::size_t start = position_; const auto operation = accept_one(operators);
-         start = position_) {
+    std::size_t n_terms = 1, start = position_;
+    for (; const auto operation = accept_one(operators); start = position_) {
+      if (++n_terms > kMostTerms) {
+        fail(start, concat("there are more than ", kMostTerms, " terms here"),
+             "put some of them in brackets");
+      }
       left = make(*operation, start, std::move(left), (this->*operand)());
     }
     return left;
   }
 
+  /// The same of `and` or of `or`, as a tree of few levels however many conditions there are: their
+  /// value does not depend on how they are grouped.
+  NodePointer parse_conditions(NodePointer (Parser::*operand)(), std::string_view word,
+                               Operation operation) {
+    std::vector<NodePointer> conditions;
+    std::vector<std::size_t> places;  // of the words between them
+    conditions.push_back((this->*operand)());
+    for (std::size_t start = position_; accept_word(word); start = position_) {
+      places.push_back(start);
+      conditions.push_back((this->*operand)());
+    }
+    return balanced(operation, conditions, places, 0, conditions.size());
+  }
+  static NodePointer balanced(Operation operation, std::vector<NodePointer>& conditions,
+                              const std::vector<std::size_t>& places, std::size_t begin,
+                              std::size_t end) {
+    if (end - begin == 1) return std::move(conditions[begin]);
+    const std::size_t middle = begin + (end - begin + 1) / 2;
+    return make(operation, places[middle - 1],
+                balanced(operation, conditions, places, begin, middle),
+                balanced(operation, conditions, places, middle, end));
+  }
+
   NodePointer parse_or() {
     const Depth depth = enter();
-    return parse_chain(&Parser::parse_and, {{"or", Operation::logical_or}});
+    return parse_conditions(&Parser::parse_and, "or", Operation::logical_or);
   }
   NodePointer parse_and() {
-    return parse_chain(&Parser::parse_not, {{"and", Operation::logical_and}});
+    return parse_conditions(&Parser::parse_not, "and", Operation::logical_and);
   }
   NodePointer parse_not() {
     const Depth depth = enter();
@@ -435,6 +466,8 @@ class Parser {
     node->position = start;
     node->end = start + word.size();
     do {
+      if (node->children.size() == kMostValues)
+        fail(position_, concat(word, " takes at most ", kMostValues, " values"), "nest " + word);
       node->children.push_back(parse_or());
     } while (accept(","));
     close_parenthesis(open);

@@ -66,8 +66,12 @@ VerdictSql unless_any(const std::vector<SqlFragment>& conditions, const VerdictS
   if (conditions.empty()) return bounds;
   SqlFragment where = conditions.front();
   for (std::size_t i = 1; i < conditions.size(); ++i) where = joined(where, " OR ", conditions[i]);
-  return {joined("CASE WHEN ", where, " THEN 0 ELSE ", bounds.certain, " END"),
-          joined("CASE WHEN ", where, " THEN 1 ELSE ", bounds.possible, " END")};
+  VerdictSql verdict = {joined("CASE WHEN ", where, " THEN 0 ELSE ", bounds.certain, " END"),
+                        joined("CASE WHEN ", where, " THEN 1 ELSE ", bounds.possible, " END")};
+  constexpr int kCase = 4;  // SqlFragment::depth of what stands before the bounds
+  verdict.certain.depth += kCase;
+  verdict.possible.depth += kCase;
+  return verdict;
 }
 
 // Ranges through operations -----------------------------------------------------------------------
@@ -179,6 +183,13 @@ class VerdictWriter {
  public:
   explicit VerdictWriter(const std::vector<Symbol>& symbols) : symbols_(symbols) {}
 
+  VerdictSql verdict(const Node& root) const {
+    VerdictSql found = condition(root);
+    const bool is_deep = std::max(found.certain.depth, found.possible.depth) > kDeepestSql;
+    return is_deep ? undivided(root) : found;
+  }
+
+ private:
   VerdictSql condition(const Node& node) const {
     switch (node.operation) {
       case Operation::literal:
@@ -199,7 +210,6 @@ class VerdictWriter {
     }
   }
 
- private:
   Range leaf(const Node& node) const {
     Range range;
     if (node.operation == Operation::literal) {
@@ -296,7 +306,7 @@ class VerdictWriter {
 
 VerdictSql Expression::verdict_sql() const {
   FAULTSIM_DEMAND(type().kind == Kind::boolean, text_);
-  return VerdictWriter(symbols_).condition(*root_);
+  return VerdictWriter(symbols_).verdict(*root_);
 }
 
 }  // namespace faultsweep

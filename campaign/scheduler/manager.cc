@@ -37,9 +37,13 @@ std::string slurm_text() {
 
 Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Options& options)
     : store_(store), link_(link), display_(display), options_(options) {
-  campaign_ = store_.campaign(options.campaign);
-  store_.claim_ownership(campaign_.id, n_workers());
-  const long n_lost = store_.requeue_missing_fields(campaign_);
+  store_.wait_for_locks(kLockSeconds);
+  long n_lost = 0;
+  insist([&] {
+    campaign_ = store_.campaign(options.campaign);
+    store_.claim_ownership(campaign_.id, n_workers());
+  });
+  insist([&] { n_lost = store_.requeue_missing_fields(campaign_); });
   if (n_lost > 0) {
     display_.note(concat("the fields of ", counted(n_lost, "case", "cases"), " are gone: ",
                          campaign_.keep_fields == KeepFields::shown
@@ -59,40 +63,104 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
   since_build_.resize(n_workers());
   building_.resize(n_workers());
   if (campaign_.cancelled) plan_->stop();
-  store_.record_event(campaign_.id, "started",
-                      concat(counted(campaign_.n_waiting, "case", "cases"), " in ",
-                             counted(plan_->n_families(), "family", "families"), ", ",
-                             counted(n_workers(), "worker", "workers"),
-                             fields_only_.empty() ? std::string()
-                                                  : concat("; ", fields_only_.size(),
-                                                           " cases for their fields only"),
-                             slurm_text()));
+  note_event("started", concat(counted(campaign_.n_waiting, "case", "cases"), " in ",
+                               counted(plan_->n_families(), "family", "families"), ", ",
+                               counted(n_workers(), "worker", "workers"),
+                               fields_only_.empty() ? std::string()
+                                                    : concat("; ", fields_only_.size(),
+                                                             " cases for their fields only"),
+                               slurm_text()));
+  commit();
 }
 
-/// What waits in the store, of a round that is new here. Nobody else changes the campaign.
+bool Manager::try_store(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const StoreBusy&) {
+    note_lock();
+    return false;
+  }
+  if (locked_ && lock_is_noted_) display_.note("the store is free again");
+  locked_ = lock_is_noted_ = false;
+  return true;
+}
+
+void Manager::insist(const std::function<void()>& work) {
+  while (!try_store(work)) {
+    if (!plan_ && options_.is_stopped && options_.is_stopped())
+      throw StoreBusy("stopped while another process had locked the store; nothing was begun");
+  }
+}
+
+void Manager::note_lock() {
+  constexpr double kRepeatSeconds = 900;
+  if (!locked_) since_lock_note_ = {};
+  locked_ = true;
+  const double patience = lock_is_noted_ ? kRepeatSeconds : options_.lock_note_seconds;
+  if (since_lock_note_.seconds() < patience) return;
+  since_lock_note_ = {};
+  lock_is_noted_ = true;
+  const std::vector<std::string> holders = store_.lock_holders();
+  display_.note(
+      concat("the store is locked by ",
+             holders.empty() ? std::string("another process (an open sqlite3 session, say)")
+                             : concat("process ", joined(holders, ", ")),
+             "; ", counted(std::ssize(uncommitted_), "result waits", "results wait"),
+             " in memory until it is free",
+             interrupted_ ? "; stop again to give them up" : ""));
+}
+
+void Manager::note_event(const std::string& kind, const std::string& text) {
+  events_.emplace_back(kind, text);
+}
+
+/// What waits in the store: all of it, of a further round, or put back by others.
 void Manager::take_work() {
-  campaign_ = store_.campaign(campaign_.name);
+  std::vector<WaitingFamily> waiting;
+  std::vector<Store::FamilyProgress> known;
+  insist([&] {
+    campaign_ = store_.campaign(campaign_.name);
+    waiting = store_.waiting_families(campaign_.id);
+    known = store_.family_progress(campaign_.id);
+  });
   n_incomplete_ = campaign_.n_done - campaign_.n_complete();
   std::vector<FamilyWork> work;
-  for (const WaitingFamily& family : store_.waiting_families(campaign_.id)) {
+  for (const WaitingFamily& family : waiting) {
     work.push_back(work_of(family, store_));
     fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
   }
   plan_->add(std::move(work));
-  for (const Store::FamilyProgress& family : store_.family_progress(campaign_.id)) {
+  for (const Store::FamilyProgress& family : known) {
     const bool is_one = family.n_operators == 1;  // creeping salt has several
     if (is_one && family.peak_bytes)
       plan_->learn_memory(family.memory_bytes, static_cast<double>(*family.peak_bytes));
   }
 }
 
+/// Another campaign's `retry` may have put cases back that this one has too. Nobody tells us.
+bool Manager::take_requeued() {
+  if (plan_->stopped() || chose_fields_) return false;
+  long n_waiting = 0;
+  insist([&] { n_waiting = store_.campaign(campaign_.name).n_waiting; });
+  if (n_waiting == 0) return false;
+  const std::string text = concat(counted(n_waiting, "case waits", "cases wait"), " again");
+  note_event("requeued", text);
+  display_.note(text);
+  take_work();
+  return true;
+}
+
 bool Manager::take_next_round() {
   if (plan_->stopped() || chose_fields_ || !options_.next_round) return false;
-  commit();
-  if (!options_.next_round(store_, campaign_.name)) return false;
-  const RoundRecord round = store_.rounds(campaign_.id).back();
+  bool is_found = false;
+  const bool is_asked =
+      try_store([&] { is_found = options_.next_round(store_, campaign_.name); });
+  if (!is_asked) return true;  // in the next turn again, or it was recorded and its cases wait
+  if (!is_found) return false;
+  RoundRecord round;
+  insist([&] { round = store_.rounds(campaign_.id).back(); });
   const std::string text = concat("next round, ", round.n_cases, " cases: ", round.reason);
-  store_.record_event(campaign_.id, "round", text);
+  note_event("round", text);
   display_.note(text);
   take_work();
   return true;
@@ -112,14 +180,14 @@ bool Manager::take_shown_fields() {
   const bool wanted = campaign_.keep_fields == KeepFields::shown && options_.shown_first;
   if (plan_->stopped() || chose_fields_ || !wanted) return false;
   chose_fields_ = true;
-  commit();
-  const FieldsChoice choice = choose_fields(store_, campaign_, cases_shown_first());
+  FieldsChoice choice;
+  insist([&] { choice = choose_fields(store_, campaign_, cases_shown_first()); });
   const auto say = [&](const std::string& text) {
-    store_.record_event(campaign_.id, "fields", text);
+    note_event("fields", text);
     display_.note(text);
   };
   for (const std::string& text : choice.left_out) say(text);
-  store_.want_fields(campaign_.id, choice.cases);
+  insist([&] { store_.want_fields(campaign_.id, choice.cases); });
   if (choice.cases.empty()) return false;
   say(concat("all cases are decided; the fault fields of the cases ranked first follow: ",
              joined(choice.positions, ", ")));
@@ -156,16 +224,18 @@ bool Manager::turn() {
       ++n_drained_;
     }
   }
-  hand_out();
+  if (uncommitted_.size() < kMostUncommitted) hand_out();
   const bool is_old = !uncommitted_.empty() && since_first_uncommitted_.seconds() > kCommitSeconds;
-  if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty()) commit();
+  if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty() || !events_.empty())
+    commit();
   beat();
   const bool over = plan_->is_finished() || interrupted_ || !trouble_.empty();
-  if (over && !draining_ && !take_next_round() && !take_shown_fields()) begin_drain();
+  if (over && !draining_ && (plan_->stopped() || commit()) && !take_requeued() &&
+      !take_next_round() && !take_shown_fields())
+    begin_drain();
   if (!draining_) return true;
   if (!workers_are_drained() && since_drain_.seconds() < options_.patience) return true;
-  commit();
-  return false;
+  return !commit();
 }
 
 void Manager::greet(int worker, const message::Hello& hello) {
@@ -190,6 +260,10 @@ void Manager::interrupt() {
       concat("stopping: ", plan_->n_in_flight(),
              " cases were handed out; each worker may finish its current one, for at most ",
              options_.patience, " s"));
+  if (locked_) {
+    lock_is_noted_ = false;  // say what is waited for
+    options_.lock_note_seconds = 0;
+  }
 }
 
 void Manager::handle(int worker, JobEvents events) {
@@ -239,7 +313,8 @@ void Manager::handle_result(int worker, JobEvents::Completed completed) {
 }
 
 std::optional<JobEvents::Failure> Manager::refuse_fields(const RunRecord& run) const {
-  const auto stored = store_.stored_result(run.case_id);
+  std::optional<faultsim::CaseResult> stored;
+  insist([&] { stored = store_.stored_result(run.case_id); });
   FAULTSIM_DEMAND(stored.has_value(), run.case_id);
   const std::string difference = first_difference(*stored, *run.result);
   if (difference.empty()) return std::nullopt;
@@ -266,7 +341,7 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
   const std::string text =
       concat(fields_only_.count(run.case_id) > 0 ? "fields of case " : "case ", position, " ",
              to_string(run.status), ": ", run.reason, run.final ? "" : "; it will be tried again");
-  store_.record_event(campaign_.id, "case failed", text);
+  note_event("case failed", text);
   display_.note(text);
   if (run.final && is_extra(run.case_id)) {
     --n_extras_left_;
@@ -274,8 +349,7 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
     ++campaign_.n_failed;
     if (campaign_.policy.on_failure == FailureAction::abort && !aborted_) {
       aborted_ = true;
-      store_.record_event(campaign_.id, "aborted",
-                          "a case failed, and the spec's on_failure is abort");
+      note_event("aborted", "a case failed, and the spec's on_failure is abort");
     }
   }
   add_run(std::move(run));
@@ -300,13 +374,15 @@ void Manager::add_run(RunRecord run) {
   uncommitted_.push_back(std::move(run));
 }
 
-void Manager::commit() {
-  for (const auto& [family, record] : operators_) {
-    store_.record_operator(plan_->work(family).id, record);
-  }
-  operators_.clear();
-  store_.record_runs(campaign_.id, uncommitted_);
-  uncommitted_.clear();
+bool Manager::commit() {
+  return try_store([this] {
+    for (; !events_.empty(); events_.pop_front())
+      store_.record_event(campaign_.id, events_.front().first, events_.front().second);
+    for (; !operators_.empty(); operators_.pop_front())
+      store_.record_operator(plan_->work(operators_.front().first).id, operators_.front().second);
+    store_.record_runs(campaign_.id, uncommitted_);
+    uncommitted_.clear();
+  });
 }
 
 void Manager::hand_out() {
@@ -344,9 +420,12 @@ void Manager::send_work(int worker, const Slice& slice) {
   work.task.operator_seconds = plan_->work(slice.family).operator_seconds;
   std::set<std::int64_t>& sent = scenes_sent_[worker];
   for (const std::int64_t id : slice.cases) {
-    CaseInput input = store_.case_input(campaign_.id, id);
-    if (sent.insert(input.scene).second)
-      work.scenes.emplace_back(input.scene, store_.base_scene(input.scene));
+    CaseInput input;
+    insist([&] { input = store_.case_input(campaign_.id, id); });
+    if (sent.insert(input.scene).second) {
+      auto& [scene, document] = work.scenes.emplace_back(input.scene, BaseScene());
+      insist([&] { document = store_.base_scene(scene); });
+    }
     positions_[id] = input.position;
     work.cases.push_back(std::move(input));
   }
@@ -366,8 +445,12 @@ void Manager::beat() {
   display_.show(progress);
   if (since_beat_.seconds() < kBeatSeconds) return;
   since_beat_ = {};
-  store_.heartbeat(progress_json());
-  if (!cancelled_ && store_.is_cancelled(campaign_.id)) {
+  bool is_cancelled = false;
+  const bool is_told = commit() && try_store([&] {
+    store_.heartbeat(progress_json());
+    is_cancelled = store_.is_cancelled(campaign_.id);
+  });
+  if (is_told && is_cancelled && !cancelled_) {
     cancelled_ = true;
     display_.note(concat(campaign_.name, " was cancelled: no more cases are handed out"));
     plan_->stop();

@@ -54,6 +54,8 @@ double cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
+constexpr double kLastPatience = 10;  // s for a lock when all results are stored
+
 std::string hundredths(double value) { return formatted("%.2f", value); }
 
 /// Overwrites what the starter has put there to keep the place: the disk may be full. False if
@@ -72,10 +74,13 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   ProgressDisplay display(options.progress);
   Store store = Store::open_owner(options.store);
   if (!store.remark().empty()) display.note(store.remark());
-  const double memory = options.memory_bytes.value_or(kMemoryShare * available_memory());
+  MemoryForOperators memory{options.memory_bytes.value_or(0), ""};
+  if (!options.memory_bytes) memory = memory_for_operators(available_memory(), physical_memory());
+  if (!memory.remark.empty()) display.note(memory.remark);
   Manager manager(store, messenger, display,
                   {.campaign = options.campaign,
-                   .memory_bytes = memory,
+                   .memory_bytes = memory.bytes,
+                   .is_stopped = [] { return stop_wanted != 0 || torn_down != 0; },
                    .threads = options.threads,
                    .next_round = options.next_round,
                    .shown_first = options.shown_first});
@@ -83,22 +88,29 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   while (manager.turn()) {
     if (stop_wanted != 0) manager.interrupt();
     if (torn_down != 0) {
-      manager.commit();
+      constexpr int kTries = 10;  // within the starter's kTearDownSeconds
+      for (int k = 0; k < kTries && !manager.commit(); ++k) {
+      }
       in_order = false;
       return ExitCode::interrupted;
     }
     idle.after_turn(manager.is_busy());
   }
   in_order = manager.workers_are_drained();
+  store.wait_for_locks(kLastPatience);
   const CampaignInfo info = store.campaign(options.campaign);
   display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
   if (!manager.trouble().empty())
     std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
-  store.record_event(
-      info.id, "stopped",
+  const std::string end =
       concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
-             " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before), " of ",
-             hundredths(since_start.seconds()), " s"));
+             " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before),
+             " of ", hundredths(since_start.seconds()), " s");
+  try {
+    store.record_event(info.id, "stopped", end);
+  } catch (const StoreBusy& busy) {  // all results are there
+    display.note(busy.what());
+  }
   store.checkpoint();
   return manager.status();
 }
@@ -116,6 +128,8 @@ ManagerEnd run_manager(Messenger& messenger, const RunOptions& options) {
     end.status = manage(messenger, options, end.in_order);
   } catch (const InputError& error) {
     end = {ExitCode::input, error.what(), false};
+  } catch (const StoreBusy& busy) {
+    end = {stop_wanted != 0 ? ExitCode::interrupted : ExitCode::world, busy.what(), false};
   } catch (const faultsim::Error& error) {
     end = {ExitCode::world, error.what(), false};
   } catch (const std::bad_alloc&) {

@@ -1,8 +1,11 @@
 #include "campaign/scheduler/resources.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 
+#include "campaign/common/names.h"
 #include "simulator/common/machine.h"
 
 namespace faultsweep {
@@ -52,10 +55,29 @@ std::optional<double> slurm_memory() {
 
 }  // namespace
 
-double available_memory() {
+std::optional<double> available_memory() {
   std::optional<double> least = faultsim::available_memory();
   if (const auto job = slurm_memory(); job && (!least || *job < *least)) least = job;
-  return std::max(0.0, least.value_or(0));
+  if (least) least = std::max(0.0, *least);
+  return least;
+}
+
+std::optional<double> physical_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGE_SIZE);
+  if (pages <= 0 || bytes <= 0) return std::nullopt;
+  return static_cast<double>(pages) * static_cast<double>(bytes);
+}
+
+MemoryForOperators memory_for_operators(std::optional<double> available,
+                                        std::optional<double> physical) {
+  constexpr double kShare = 0.9, kShareOfPhysical = 0.5, kGigabyte = 1e9;
+  constexpr double kLeast = 1;  // byte: 0 would mean no limit; operators are then built one by one
+  if (available) return {std::max(kLeast, kShare * *available), ""};
+  const std::string unknown = "it is not known how much memory is available";
+  if (!physical) return {0, unknown + ": operators are not limited; give --memory"};
+  const double bytes = kShareOfPhysical * *physical;
+  return {bytes, concat(unknown, ": operators may have half of the physical memory, ",
+                        formatted("%.1f", bytes / kGigabyte), " GB, unless --memory is given")};
 }
 
 }  // namespace faultsweep

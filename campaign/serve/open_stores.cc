@@ -16,7 +16,8 @@ OpenStores::Lease::~Lease() {
   try {
     store_->let_state_go();
     const std::lock_guard lock(owner_.mutex_);
-    if (owner_.file_id() == owner_.opened_) owner_.free_.push_back(std::move(store_));
+    if (store_->sees_changes() && owner_.file_id() == owner_.opened_)
+      owner_.free_.push_back(std::move(store_));
   } catch (const std::exception&) {
     store_.reset();  // the next request opens another and says what is wrong
   }

@@ -21,7 +21,7 @@ class OpenStores {
   /// A reader for one request: it sees one state of the store, the one of its first query.
   class Lease {
    public:
-    ~Lease();  ///< after an exception the reader is closed.
+    ~Lease();  ///< after an exception the reader is closed, as is one that sees no changes.
     Lease(const Lease&) = delete;
     Lease& operator=(const Lease&) = delete;
     const Store& operator*() const { return *store_; }

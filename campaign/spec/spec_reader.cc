@@ -60,7 +60,7 @@ std::optional<double> parse_bytes(const std::string& text) {
   const std::size_t blank = text.find(' ');
   if (blank == std::string::npos) return std::nullopt;
   const auto number = faultsim::parse_quantity(text.substr(0, blank), Dimension::number);
-  const std::string unit = text.substr(text.find_last_of(' ') + 1);
+  const std::string unit = text.substr(std::min(text.find_first_not_of(' ', blank), text.size()));
   for (const auto& [name, factor] : kUnits) {
     if (unit == name && number.ok && number.value > 0) return number.value * factor;
   }

@@ -1,4 +1,7 @@
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -64,8 +67,43 @@ void Store::claim_ownership(std::int64_t campaign, int n_workers) {
 }
 
 void Store::heartbeat(const std::string& progress) {
-  connection_->run("UPDATE owner SET heartbeat_at = ?, progress = ? WHERE id = 1",
-                   seconds_since_1970(), progress);
+  connection_->run(
+      "UPDATE owner SET heartbeat_at = ?, progress = ?"
+      " WHERE id = 1 AND host = ? AND pid = ? AND pid_started = ?",
+      seconds_since_1970(), progress, host_name(), getpid(), process_started(getpid()));
+  if (connection_->changes() == 1) return;
+  const auto now = owner();
+  throw StorageError(
+      concat("the store ", folder_.string(), " was taken over by ",
+             now ? concat("process ", now->pid, " on ", now->host) : "another process",
+             " because this one seemed to be dead: it was suspended or could not write for ",
+             kSilentSeconds, " s, or the clocks of the hosts differ; what is stored is intact"));
+}
+
+/// From the kernel's list: to open the file and ask would drop the locks of this process.
+std::vector<std::string> Store::lock_holders() const {
+  std::vector<std::string> files;  // ":inode", as they end in the list
+  for (const char* end : {"", "-wal", "-shm"}) {
+    struct stat info = {};
+    if (stat((connection_->path().string() + end).c_str(), &info) == 0)
+      files.push_back(concat(":", info.st_ino));
+  }
+  std::vector<std::string> holders;
+  std::ifstream locks("/proc/locks");  // 7: POSIX ADVISORY WRITE 1234 fd:00:2531452 0 EOF
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, kind, advice, access, file;
+    std::int64_t pid = 0;
+    if (!(words >> number >> kind >> advice >> access >> pid >> file)) continue;  // "->" waits
+    const bool is_ours = std::ranges::any_of(
+        files, [&](const std::string& inode) { return file.ends_with(inode); });
+    if (access != "WRITE" || !is_ours || pid <= 0 || pid == getpid()) continue;
+    std::string program;
+    std::getline(std::ifstream(concat("/proc/", pid, "/comm")) >> std::ws, program);
+    const std::string holder = program.empty() ? concat(pid) : concat(pid, " (", program, ")");
+    if (!faultsim::contains(holders, holder)) holders.push_back(holder);
+  }
+  return holders;
 }
 
 void Store::release_ownership() {

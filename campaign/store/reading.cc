@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 
 #include "campaign/common/names.h"
@@ -20,27 +21,59 @@ std::vector<StoredRun> read_runs(Connection& db, std::int64_t case_id) {
       case_id);
 }
 
+constexpr std::size_t kShortestPrefix = 6;
+
+/// The case of this number from 1; none = there is none, or the name is no number.
+std::optional<long> numbered_case(Connection& db, std::int64_t campaign, const std::string& name) {
+  long position = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
+  if (error != std::errc() || end != name.data() + name.size()) return std::nullopt;
+  return db.find<long>("SELECT position FROM campaign_cases WHERE campaign_id = ? AND position = ?",
+                       campaign, position);
+}
+
+/// The case whose identity begins so; none = there is none. Throws InputError where it is not the
+/// only one.
+std::optional<long> case_with_prefix(Connection& db, std::int64_t campaign,
+                                     const std::string& prefix) {
+  if (prefix.size() < kShortestPrefix) return std::nullopt;
+  constexpr std::size_t kListed = 5;
+  using Place = std::pair<long, std::string>;
+  const auto fitting = db.rows<Place, long, std::string>(
+      "SELECT cc.position, c.identity FROM campaign_cases cc JOIN cases c ON c.id = cc.case_id"
+      " WHERE cc.campaign_id = ?1 AND c.identity >= ?2 AND c.identity < ?2 || '~'"
+      " ORDER BY c.identity LIMIT ?3",
+      campaign, prefix, kListed + 1);
+  if (fitting.empty()) return std::nullopt;
+  if (fitting.size() == 1 || fitting.front().second == prefix) return fitting.front().first;
+  std::vector<std::string> listed;
+  for (std::size_t k = 0; k < std::min(kListed, fitting.size()); ++k)
+    listed.push_back(concat(fitting[k].first, " (", fitting[k].second, ")"));
+  throw InputError("CASE",
+                   concat("the identities of several cases begin with '", prefix,
+                          "': ", joined(listed, ", "), fitting.size() > kListed ? ", ..." : ""),
+                   "give more digits, or the number of the case");
+}
+
 }  // namespace
 
 StoredCase Store::stored_case(std::int64_t campaign, const std::string& name) const {
   Connection& db = *connection_;
-  long position = 0;
-  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), position);
-  const bool is_number = error == std::errc() && end == name.data() + name.size();
-  constexpr std::size_t kShortestPrefix = 6;
-  constexpr const char* kColumns =
-      "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
-      " c.scene_id, cc.fields, k.name FROM campaign_cases cc"
-      " JOIN campaigns k ON k.id = cc.campaign_id JOIN cases c ON c.id = cc.case_id"
-      " JOIN families f ON f.id = c.family_id WHERE cc.campaign_id = ?1 AND ";
-  Statement query(db, concat(kColumns, is_number ? "cc.position = ?2"
-                                                 : "c.identity >= ?2 AND c.identity < ?2 || '~'"));
-  is_number ? query.bind(campaign, position) : query.bind(campaign, name);
-  if ((!is_number && name.size() < kShortestPrefix) || !query.step()) {
+  auto position = numbered_case(db, campaign, name);
+  if (!position) position = case_with_prefix(db, campaign, name);
+  if (!position) {
     throw InputError(
         "CASE", concat("the campaign has no case '", name, "'"),
         concat("give its number from 1, or at least ", kShortestPrefix, " digits of its identity"));
   }
+  Statement query(db,
+                  "SELECT c.id, cc.position, c.identity, f.fingerprint, c.state, c.changes,"
+                  " c.scene_id, cc.fields, k.name FROM campaign_cases cc"
+                  " JOIN campaigns k ON k.id = cc.campaign_id JOIN cases c ON c.id = cc.case_id"
+                  " JOIN families f ON f.id = c.family_id"
+                  " WHERE cc.campaign_id = ? AND cc.position = ?");
+  query.bind(campaign, *position);
+  query.step();
   StoredCase found;
   std::string fields, campaign_name;
   query.read(found.id, found.position, found.identity, found.family, found.state, found.changes,

@@ -233,6 +233,12 @@ inline constexpr const char* kDamageCure =
 /// Of this machine, as OwnerInfo has it.
 std::string host_name();
 
+/// Another process kept the database locked for the whole waiting time; the only storage error that
+/// may go away by itself. Exit code 4 like its base.
+class StoreBusy : public faultsim::StorageError {
+  using StorageError::StorageError;
+};
+
 /// Who manages the store.
 struct OwnerInfo {
   std::string host;

@@ -86,6 +86,7 @@ Connection::Connection(const std::filesystem::path& path, Mode mode) : path_(pat
     if (access(path.parent_path().c_str(), W_OK) != 0 &&
         !std::filesystem::exists(path.string() + "-wal")) {
       uri += "&immutable=1";
+      is_immutable_ = true;
     }
   }
   const int flags =
@@ -125,6 +126,9 @@ std::int64_t Connection::state() {
   constexpr int kBitsOfOwn = 32;
   const auto version = row<std::int64_t>("PRAGMA data_version");  // of others' changes
   return (version << kBitsOfOwn) + sqlite3_total_changes(handle_.get());
+}
+void Connection::wait_for_locks(double seconds) {
+  sqlite3_busy_timeout(handle_.get(), static_cast<int>(std::lround(seconds * 1000)));
 }
 int Connection::changes() const { return sqlite3_changes(handle_.get()); }
 

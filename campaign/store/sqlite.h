@@ -20,12 +20,6 @@ struct sqlite3_stmt;
 /// SQLite as three RAII types. Only campaign/store/*.cc may use them: no SQL anywhere else.
 namespace faultsweep {
 
-/// Another process kept the database locked for the whole waiting time; the only storage error that
-/// may go away by itself. Exit code 4 like its base.
-class StoreBusy : public faultsim::StorageError {
-  using StorageError::StorageError;
-};
-
 struct SqliteClose {
   void operator()(sqlite3* handle) const;
   void operator()(sqlite3_stmt* statement) const;
@@ -72,18 +66,23 @@ class Connection {
   /// Another number whenever what can be read has changed, by whomever.
   std::int64_t state();
   int changes() const;
+  /// How long a locked database is waited for from now on.
+  void wait_for_locks(double seconds);
   /// Moves the whole WAL into the database file. No effect under another journal mode.
   void checkpoint();
   /// Copies the database as this connection sees it, also while others write, to a file that it
   /// makes. Throws StorageError, leaving the file to the caller.
   void copy_to(const std::filesystem::path& target);
   const std::filesystem::path& path() const { return path_; }
+  /// It takes the file for one that nobody changes: of no use once somebody does.
+  bool is_immutable() const { return is_immutable_; }
 
  private:
   friend class Statement;
 
   std::unique_ptr<sqlite3, SqliteClose> handle_;
   std::filesystem::path path_;
+  bool is_immutable_ = false;
   std::unordered_map<std::string, std::vector<StatementHandle>> idle_;  ///< by their text.
 };
 

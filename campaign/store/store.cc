@@ -120,7 +120,9 @@ Store Store::open_reader(const std::filesystem::path& folder) {
 
 void Store::hold_state() const { connection_->execute("BEGIN"); }
 void Store::let_state_go() const { connection_->execute("COMMIT"); }
+bool Store::sees_changes() const { return !connection_->is_immutable(); }
 
+void Store::wait_for_locks(double seconds) { connection_->wait_for_locks(seconds); }
 void Store::checkpoint() { connection_->checkpoint(); }
 
 std::int64_t Store::name_id(const std::string& name) {

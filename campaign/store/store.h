@@ -108,6 +108,9 @@ class Store {
   /// @pre opened for reading.
   void hold_state() const;
   void let_state_go() const;  ///< ends hold_state().
+  /// It sees what is written later. False where the folder cannot be written and nobody wrote when
+  /// it was opened: then SQLite takes the file for one that never changes.
+  bool sees_changes() const;
   Store(Store&&) noexcept;
   Store& operator=(Store&&) = delete;
   ~Store();
@@ -181,15 +184,24 @@ class Store {
   /// Makes this process the owner. A dead owner (process gone, or, on another host, silent for
   /// 60 s) is taken over, noted as an event; a living one is a StorageError that names it.
   void claim_ownership(std::int64_t campaign, int n_workers);
+  /// Says that this process lives. Throws StorageError, changing nothing, where the store has
+  /// another owner by now.
   void heartbeat(const std::string& progress);
   void release_ownership();
   std::optional<OwnerInfo> owner() const;
   /// An owner that has died; none = it has none. Throws StorageError, naming a living one.
   std::optional<OwnerInfo> dead_owner() const;
   void checkpoint();
+  /// How long each access waits where another process has locked the store, before it throws
+  /// StoreBusy; 10 s unless set.
+  void wait_for_locks(double seconds);
+  /// Other processes of this host that hold a lock for writing, as "1234 (sqlite3)"; none = nobody
+  /// is known to.
+  std::vector<std::string> lock_holders() const;
 
   // Reading ---------------------------------------------------------------------------------------
-  /// A case of the campaign by position from 1, or by (the beginning of) its identity.
+  /// A case of the campaign by position from 1, or by (the beginning of) its identity. Throws
+  /// InputError where there is none, or where that beginning fits several.
   StoredCase stored_case(std::int64_t campaign, const std::string& name) const;
   /// What to list and how to order it.
   struct RankingQuery {

@@ -304,6 +304,20 @@ TEST(Expression, DeepNestingIsRefused) {
   EXPECT_NE(error_of(nots + "true").find("nested too deeply"), std::string::npos);
 }
 
+TEST(Expression, SumsAndListsAreAsLongAsSqlTakesThem) {
+  const auto chain = [](int n, const std::string& between) {
+    std::string text = "zero";
+    for (int i = 1; i < n; ++i) text += between + "zero";
+    return text;
+  };
+  EXPECT_EQ(error_of(chain(200, "+")), "no error");
+  EXPECT_NE(error_of(chain(201, "+")).find("there are more than 200 terms here"),
+            std::string::npos);
+  EXPECT_EQ(error_of("max(" + chain(100, ",") + ")"), "no error");
+  EXPECT_NE(error_of("max(" + chain(101, ",") + ")").find("max takes at most 100 values"),
+            std::string::npos);
+}
+
 TEST(Expression, SqlBindsEveryLiteral) {
   const auto sql =
       Expression::parse("not (offset > 150 m and rule = \"x'); drop\") or abs(-chi_bar) ^ 2 > 1",
@@ -419,6 +433,65 @@ TEST(Expression, SqlAgreesWithEvaluate) {
     ASSERT_DOUBLE_EQ(*here, *there) << text;
   }
   EXPECT_GT(n_present, 1000);
+}
+
+/// In the middle of a statement, as deep as the store's are.
+SqlFragment as_column(SqlFragment sql) {
+  sql.text = "(SELECT x.c_offset FROM t x WHERE x.c_zero = 0 AND x.c_chi = 1.5 AND iif(" + sql.text +
+             ", 1, 0))";
+  return sql;
+}
+
+TEST(Expression, SqlTakesLongChainsAsEvaluateDoes) {
+  Database database;
+  const struct {
+    const char *term, *between;
+    int n;
+  } chains[] = {{"chi_bar > 2", " or ", 600},    {"chi_bar < 2", " and ", 600},
+                {"0.1 * chi_bar", " + ", 200},   {"0.1", " / ", 200},
+                {"chi_bar", " / 1.25 * ", 100},  {"activated and zero > 1", " or ", 350}};
+  for (const auto& [term, between, n] : chains) {
+    std::string text = term;
+    for (int i = 1; i < n; ++i) text += std::string(between) + term;
+    const SqlFragment sql = Expression::parse(text, symbols()).sql();
+    EXPECT_EQ(as_number(evaluate(text)), database.run(sql)) << "to the last bit: " << text;
+    database.run(as_column(sql));
+  }
+  std::string mixed = "(chi_bar - 0.3)";
+  for (int i = 0; i < 80; ++i) mixed = mixed + (i % 2 == 0 ? " - 0.7" : " + 0.1");
+  EXPECT_EQ(as_number(evaluate(mixed)), database.run(Expression::parse(mixed, symbols()).sql()));
+  const std::string right = "(1 - (2 - 3)) / (2 / (3 / 4))";
+  EXPECT_EQ(database.run(Expression::parse(right, symbols()).sql()), 0.75);
+}
+
+/// Of whatever nesting, what is not refused as it is read is not refused by SQLite either.
+TEST(Expression, WhatIsNotTooDeepIsTakenBySql) {
+  Database database;
+  const struct {
+    const char *begin, *end;
+    bool is_condition;
+  } levels[] = {{"not ", "", true},          {"-", "", false},
+                {"(activated or ", ")", true}, {"(", " and activated)", true},
+                {"(2 + ", ")", false},         {"(", " ^ 2)", false},
+                {"max(1, ", ")", false},       {"abs(", ")", false},
+                {"2 / (3 * ", ")", false},     {"(not activated and (activated or ", "))", true}};
+  for (const auto& [begin, end, is_condition] : levels) {
+    std::string text = is_condition ? "activated" : "chi_bar";
+    int n_levels = 0;
+    for (; n_levels < 300; ++n_levels) {
+      const std::string deeper = begin + text + end;
+      try {
+        database.run(as_column(Expression::parse(deeper, symbols()).sql()));
+      } catch (const ExpressionError& error) {
+        EXPECT_NE(error.message().find("nested too deeply"), std::string::npos);
+        break;
+      }
+      ASSERT_FALSE(HasFailure()) << deeper;
+      text = deeper;
+    }
+    EXPECT_GE(n_levels, 6) << text;
+    EXPECT_LT(n_levels, 300) << text;
+  }
 }
 
 TEST(Expression, RandomBytesNeverCrash) {

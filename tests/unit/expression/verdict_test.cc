@@ -251,6 +251,31 @@ TEST_F(VerdictOfRow, NestedEquationsStayShort) {
   EXPECT_EQ(verdict(nested), "undecided");
 }
 
+/// Beyond the 100 levels that SQLite's parser has, were every pair in brackets.
+TEST_F(VerdictOfRow, LongAndDeepConditionsAreTaken) {
+  row_["q"].resolved = false;
+  row_["a"].error = 0.25;
+  std::string any = "q", all = "a + b > 2", sum = "b";
+  for (int i = 0; i < 300; ++i) {
+    any += " or a > 1.5";
+    all += " and p";
+  }
+  for (int i = 0; i < 180; ++i) sum += i % 2 == 0 ? " - a" : " + a";
+  EXPECT_EQ(verdict(any), "undecided");
+  EXPECT_EQ(verdict(any + " or a > 0.5"), "yes");
+  EXPECT_EQ(verdict(all), "yes");
+  EXPECT_EQ(verdict(all + " and q"), "undecided");
+  EXPECT_EQ(verdict(sum + " > 100"), "no");
+  EXPECT_EQ(verdict(sum + " > 1"), "undecided") << "errors add up";
+  std::string deep = "a", equal = "q", products = "a > 2";
+  for (int i = 0; i < 7; ++i) deep = "abs(2 - " + deep + ")";
+  EXPECT_EQ(verdict(deep + " > 100"), "undecided") << "too deep or long to follow the error";
+  for (int i = 0; i < 7; ++i) equal = "(p or (r = " + equal + "))";
+  EXPECT_EQ(verdict(equal), "undecided") << "so is this: wider, not wrong";
+  for (int i = 0; i < 5; ++i) products = "(p and (q or " + products + "))";
+  EXPECT_EQ(verdict(products), "undecided");
+}
+
 TEST_F(VerdictOfRow, WholeNumbersAreDividedWithTheirRemainder) {
   Symbols symbols = symbols_of(row_);
   symbols["seven"] = {"seven", Type{}};

@@ -183,6 +183,23 @@ TEST(Agreement, WhatABaselineDoesNotHaveIsNoDifference) {
   EXPECT_EQ(other.worst->quantity, "moment_nm");
 }
 
+/// As another C library's logarithm makes it, of the same moments.
+TEST(Agreement, AMagnitudeAloneMayDifferInItsLastBits) {
+  const auto nudge = [](CaseResult& r) {
+    ASSERT_TRUE(r.events[0].magnitude.has_value());
+    r.events[0].magnitude = std::nextafter(*r.events[0].magnitude, 9);
+  };
+  const Agreement same = after(nudge);
+  EXPECT_EQ(same.verdict, Verdict::last_bits);
+  ASSERT_TRUE(same.first.has_value());
+  EXPECT_EQ(same.first->place, "slip event 1");
+  EXPECT_EQ(same.first->quantity, "magnitude_mw");
+  EXPECT_EQ(same.max_ulps, 1u);
+  EXPECT_EQ(after(nudge, false).verdict, Verdict::within_tier);
+  const auto other_formula = [](CaseResult& r) { r.whole.event_magnitude = 4.5; };
+  EXPECT_EQ(after(other_formula, false).verdict, Verdict::beyond_tier);
+}
+
 TEST(Agreement, QuantitiesAreTheKeysOfAResult) {
   const auto names = quantities();
   EXPECT_THAT(names,

@@ -133,6 +133,69 @@ TEST_F(ManagerTest, InterruptedCampaignsResumeWhereTheyStopped) {
   EXPECT_EQ(FakeRunner::n_runs, 100);
 }
 
+/// As an open transaction of another program does. Cases go on, and nothing is lost.
+TEST_F(ManagerTest, ResultsWaitWhileAnotherProcessHasLockedTheStore) {
+  submit(30, {7});
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  Connection other(folder_ / "campaign.sqlite", Connection::Mode::read_write);
+  other.execute("BEGIN IMMEDIATE");
+  EXPECT_FALSE(stage.play(manager, 40));
+  EXPECT_EQ(FakeRunner::n_runs, 29);
+  EXPECT_EQ(store.campaign("").n_waiting, 30) << "nothing could be stored";
+  EXPECT_FALSE(manager.commit());
+  manager.interrupt();
+  EXPECT_FALSE(stage.play(manager, 5)) << "not without the results";
+  EXPECT_TRUE(manager.workers_are_drained()) << "which was done meanwhile";
+  other.execute("COMMIT");
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::incomplete);
+  const CampaignInfo info = store.campaign("");
+  EXPECT_EQ(info.n_done, 29);
+  EXPECT_EQ(info.n_failed, 1);
+  EXPECT_THAT(events(), ::testing::HasSubstr("case failed: case 8 crashed: killed"));
+  Connection read(folder_ / "campaign.sqlite", Connection::Mode::read_only);
+  EXPECT_EQ(read.row<int>("SELECT sum(times_built) FROM operators"), 3);
+}
+
+TEST_F(ManagerTest, BeginsWhenTheStoreIsFree) {
+  submit(3, {});
+  Store store = Store::open_owner(folder_);
+  Stage stage(1);
+  Connection other(folder_ / "campaign.sqlite", Connection::Mode::read_write);
+  other.execute("BEGIN IMMEDIATE");
+  int n_asked = 0;
+  Manager::Options options;
+  options.is_stopped = [&] { return ++n_asked == 3; };
+  EXPECT_THROW(Manager(store, stage, silent_, options), faultsim::StorageError);
+  options.is_stopped = [&] {
+    if (++n_asked == 6) other.execute("COMMIT");
+    return false;
+  };
+  Manager manager(store, stage, silent_, options);
+  EXPECT_EQ(n_asked, 6);
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(manager.status(), ExitCode::done);
+}
+
+/// `retry` of one campaign puts back a case that another one has too.
+TEST_F(ManagerTest, TakesCasesThatWerePutBackMeanwhile) {
+  submit(12, {5});
+  EXPECT_EQ(run(), ExitCode::incomplete);
+  submit(30, {5}, {}, "larger");
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_FALSE(stage.play(manager, 3));
+  EXPECT_EQ(Store::open_writer(folder_).retry(store.campaign("sweep").id, false, {}), 1);
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(store.campaign("larger").n_waiting, 0);
+  EXPECT_EQ(store.stored_case(store.campaign("larger").id, "6").runs.size(), 2u);
+  EXPECT_EQ(manager.status(), ExitCode::incomplete);
+  EXPECT_THAT(events(), ::testing::HasSubstr("requeued: 1 case waits again"));
+}
+
 /// Forgets manager and workers after each number of turns, as kill -9 of all of them would.
 TEST_F(ManagerTest, KilledAtAnyTurnTheNextManagerCompletesTheCampaign) {
   submit(25, {7});

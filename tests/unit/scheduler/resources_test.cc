@@ -47,6 +47,20 @@ TEST(Resources, TheMemoryOfASlurmJobIsWhatItAskedFor) {
   unsetenv("SLURM_CPUS_ON_NODE");
 }
 
+TEST(Resources, OperatorsHaveAShareOfTheMemoryAlsoWhereItIsNotKnown) {
+  EXPECT_EQ(memory_for_operators(10e9, 32e9).bytes, 9e9);
+  EXPECT_EQ(memory_for_operators(10e9, 32e9).remark, "");
+  EXPECT_GT(memory_for_operators(0.0, 32e9).bytes, 0) << "0 is no limit";
+  EXPECT_LT(memory_for_operators(0.0, 32e9).bytes, 1e6);
+  EXPECT_EQ(memory_for_operators({}, 32e9).bytes, 16e9);
+  EXPECT_EQ(memory_for_operators({}, 32e9).remark,
+            "it is not known how much memory is available: operators may have half of the physical "
+            "memory, 16.0 GB, unless --memory is given");
+  EXPECT_EQ(memory_for_operators({}, {}).bytes, 0);
+  EXPECT_NE(memory_for_operators({}, {}).remark, "");
+  EXPECT_GT(physical_memory(), 1e8);
+}
+
 TEST(NodeCache, IsAFolderOfOurOwnOnADisk) {
   const std::filesystem::path base = std::filesystem::path(FAULTSIM_BINARY_DIR) / "node_cache_test";
   std::filesystem::remove_all(base);

@@ -149,6 +149,16 @@ TEST(Spec, PolicyAndMetrics) {
   EXPECT_EQ(spec.rank_by, "max(chi_bar, 0.5)");
 }
 
+TEST(Spec, AnAmountOfMemoryIsANumberAndAUnit) {
+  const char* offset = R"({"offset": ["0 m"]})";
+  const auto with = [&](const std::string& amount) {
+    return grid_with(offset, R"("policy": {"memory_limit": ")" + amount + "\"}, ");
+  };
+  EXPECT_EQ(with("8  GB").policy.memory_limit, 8e9);
+  for (const char* wrong : {"8 x GB", "8 GB GB", "8 GB ", "8 ", "8", " GB"})
+    EXPECT_THROW(with(wrong), faultsim::InputError) << wrong;
+}
+
 TEST(Spec, KeepsFieldsOfTheCasesShownFirstUnlessAskedForOthers) {
   const char* offset = R"({"offset": ["0 m"]})";
   const auto silent = grid_with(offset);

@@ -59,6 +59,29 @@ TEST_F(StoreTest, LivingManagerKeepsOthersOutAndADeadOneIsTakenOver) {
   EXPECT_FALSE(store.owner());
 }
 
+/// As when this process was suspended for longer than a minute.
+TEST_F(StoreTest, AManagerThatWasReplacedLearnsItAtItsNextHeartbeat) {
+  Store store = Store::open_owner(folder_);
+  store.claim_ownership(store.submit(submission(1)).campaign, 2);
+  store.heartbeat("{}");
+  Connection other(folder_ / "campaign.sqlite", Connection::Mode::read_write);
+  for (const char* change : {"host = 'elsewhere'", "pid = 1", "pid_started = 1"}) {
+    other.execute(concat("UPDATE owner SET heartbeat_at = 17, progress = 'theirs', ", change));
+    try {
+      store.heartbeat("{}");
+      ADD_FAILURE() << change;
+    } catch (const StorageError& error) {
+      EXPECT_THAT(error.what(), HasSubstr("was taken over by process "));
+    }
+    EXPECT_EQ(count("SELECT heartbeat_at FROM owner"), 17);
+    EXPECT_EQ(store.owner()->progress, "theirs");
+    store.release_ownership();
+    store.claim_ownership(1, 2);
+  }
+  other.execute("DELETE FROM owner");
+  EXPECT_THROW(store.heartbeat("{}"), StorageError);
+}
+
 TEST_F(StoreTest, AStatementThatIsInUseIsNotRestarted) {
   Connection connection(folder_ / "other.sqlite", Connection::Mode::owner);
   connection.execute("CREATE TABLE numbers (n); INSERT INTO numbers VALUES (1), (2)");

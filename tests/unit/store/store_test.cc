@@ -100,6 +100,27 @@ TEST_F(StoreTest, GivesBackWhatARunStored) {
   EXPECT_THROW(store.stored_case(campaign, "3"), faultsim::InputError);
 }
 
+TEST_F(StoreTest, TheBeginningOfAnIdentityNamesOneCaseOrNone) {
+  Store store = Store::open_owner(folder_);
+  Submission s = submission(12);
+  s.cases[1].identity = "123456789";
+  const std::int64_t campaign = store.submit(s).campaign;
+  EXPECT_EQ(store.stored_case(campaign, "identity-3").position, 4);
+  EXPECT_EQ(store.stored_case(campaign, "identity-11").position, 12);
+  EXPECT_EQ(store.stored_case(campaign, "123456").position, 2) << "there is no such number";
+  EXPECT_THROW(store.stored_case(campaign, "12345"), faultsim::InputError) << "too short";
+  try {
+    store.stored_case(campaign, "identity-1");
+    ADD_FAILURE() << "it fits two";
+  } catch (const faultsim::InputError& error) {
+    EXPECT_THAT(error.what(),
+                HasSubstr("several cases begin with 'identity-1': 11 (identity-10), 12 (ident"));
+  }
+  s = submission(11, "all of it");
+  EXPECT_EQ(store.stored_case(store.submit(s).campaign, "identity-1").position, 2)
+      << "identity-10 begins so too";
+}
+
 TEST_F(StoreTest, NeverStoresASecondSuccess) {
   Store store = Store::open_owner(folder_);
   const std::int64_t campaign = store.submit(submission(2)).campaign;
