@@ -95,6 +95,49 @@ void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::
       "give metres, a share of the left side in [0, 1], a reach above 0 and a taper of 0 or more");
 }
 
+/// m, of a trace; pieces that leave the box count as its diagonal at most.
+double length_of(const std::vector<Eigen::Vector2d>& trace, double diagonal) {
+  double length = 0;
+  for (std::size_t k = 0; k + 1 < trace.size(); ++k)
+    length += std::min((trace[k + 1] - trace[k]).norm(), diagonal);
+  return length;
+}
+
+/// About how many tetrahedra a body takes, often some 30 % too few: regular ones of the size that
+/// cells have at a distance from each line of the map, on both sides and along all of its depths,
+/// but nowhere finer than at faults; and of the largest size in all of the box.
+double cells_needed(const LayeredBody& body) {
+  constexpr double kPerCube = 6.93;  // three of a prism, on 4/√3 triangles in a square
+  const BodyCells& cells = body.cells;
+  const Eigen::Vector2d extent = body.high - body.low;
+  const double area = extent.prod(), depth = body.top - body.base, diagonal = extent.norm();
+  // ∫ 2 dy / (h + g y)³ from the line to where cells are largest, for each area of it.
+  const auto beside = [&](double size) {
+    return std::max(0.0, 1 / std::pow(size, 2) - 1 / std::pow(cells.far, 2)) / cells.growth;
+  };
+  double fine = 0;
+  for (const LayeredFault& fault : body.faults) {
+    const double height = fault.top.value_or(body.top) - fault.bottom.value_or(body.base);
+    fine += length_of(fault.trace, diagonal) * height * beside(cells.at_faults);
+  }
+  for (const Divider& divider : body.dividers)
+    fine += length_of(divider.line, diagonal) * depth * beside(cells.beside_dividers());
+  fine = std::min(fine, area * depth / std::pow(cells.at_faults, 3));
+  return kPerCube * (fine + area * depth / std::pow(cells.far, 3));
+}
+
+/// Before they are made: "5 mm" for "5 m" would take all memory, after minutes.
+void check_cells(const LayeredBody& body, std::vector<Problem>& problems) {
+  constexpr double kMost = 1e7;  // 40 million unknowns, which no path solves in 100 GB
+  const double needed = cells_needed(body);
+  if (needed <= kMost) return;
+  problems.push_back({"/cells", 0,
+                      concat("cells of ", decimal(body.cells.at_faults, 3), " m at the faults and ",
+                             decimal(body.cells.far, 3), " m at most would make a body of about ",
+                             formatted("%.0f", needed / 1e6), " million cells"),
+                      "take larger cells: at most 10 million are built"});
+}
+
 }  // namespace
 
 void check_numbers(const LayeredBody& body, std::vector<Problem>& problems) {
@@ -109,6 +152,7 @@ void check_numbers(const LayeredBody& body, std::vector<Problem>& problems) {
                         counted(body.compartments[c].region.size(), "region", "regions"), " for ",
                         counted(body.layers.size(), "layer", "layers")),
                  "give one per layer, -1 for none");
+  if (problems.empty()) check_cells(body, problems);
 }
 
 }  // namespace faultsim::horizons

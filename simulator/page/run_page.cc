@@ -10,6 +10,7 @@
 #include "simulator/figure/svg.h"
 #include "simulator/page/case_part.h"
 #include "simulator/result/result_sentences.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsim {
 namespace {
@@ -99,8 +100,19 @@ void add_faults(HtmlPage& page, const CasePicture& picture) {
   }
 }
 
-void add_doubts(HtmlPage& page, const CaseResult& result) {
+/// What is known of the error of its cells.
+std::string cells_sentence(const Scene& scene) {
+  const Tier* tier = find_tier(scene.tier);
+  const bool is_of_tier = tier != nullptr && tier->sizes == scene.mesh;
+  return is_of_tier ? concat("The cells are those of tier ", tier->name,
+                             ". Measured in plane strain against small ones: ", tier->errors, ".")
+                    : "No tier names an error of these cells: a run with smaller ones shows it.";
+}
+
+void add_doubts(HtmlPage& page, const CasePicture& picture) {
+  const CaseResult& result = picture.result;
   page.section("how-sure", "How sure this is");
+  page.paragraph(cells_sentence(picture.scene));
   if (result.warnings.empty()) page.paragraph("This run gave no warnings.", "faint");
   for (const std::string& warning : result.warnings) page.paragraph(warning);
 }
@@ -128,7 +140,7 @@ std::string run_page(const CasePicture& picture, const std::string& scene,
   page.unless_refused([&] { add_case_steps(page, picture, 1); });
   add_stages(page, result);
   add_faults(page, picture);
-  add_doubts(page, result);
+  add_doubts(page, picture);
   add_provenance(page, result, scene, program);
   return page.finish();
 }

@@ -58,6 +58,7 @@ void check_creep(SceneReader& reader, const Scene& scene) {
   for (const char* part : {"/geometry", "/materials"}) {
     if (!reader.has(part) || !reader.sound(part)) return;
   }
+  if (!is_body_known(reader, scene)) return;  // nor what it is made of
   check_switch(reader, scene);
   check_initial_state(reader, scene);
 }

@@ -112,8 +112,8 @@ void remark_added_steps(const SceneReader& reader, Scene& scene, std::size_t fau
 }  // namespace
 
 void check_fault_tables(SceneReader& reader, const Scene& scene) {
-  if (!reader.sound("/geometry") || !reader.sound("/faults") || !reader.sound("/fault_pressure"))
-    return;
+  if (!is_body_known(reader, scene)) return;  // faults of a mesh have their places in it
+  if (!reader.sound("/faults") || !reader.sound("/fault_pressure")) return;
   for (std::size_t f = 0; f < scene.faults.size(); ++f) {
     if (!has_table(scene.faults[f])) continue;
     for (const Direction& d : directions(scene, f)) {

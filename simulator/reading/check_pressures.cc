@@ -241,6 +241,7 @@ void check_pressures(SceneReader& reader, const Scene& scene) {
     if (!reader.has(part) || !reader.sound(part)) return;
   }
   for (std::size_t i = 0; i < scene.pressure.size(); ++i) check_region(reader, scene, i);
+  if (!is_body_known(reader, scene)) return;  // faults of a mesh have their places in it
   if (!reader.sound("/faults") || !reader.sound("/fault_pressure")) return;
   const bool mixes = scene.geometry_kind == GeometryKind::field && !scene.pressure_field.is_given();
   for (std::size_t i = 0; i < scene.faults.size(); ++i) {

@@ -81,7 +81,8 @@ void refuse_cell_sizes(SceneReader& reader, Scene& scene) {
     reader.problem("/mesh/" + key, "has no effect in a body of horizons",
                    "remove it; strike is the size of cells at the faults");
   }
-  if (!reader.has("/mesh/strike")) {
+  const bool is_readable = !reader.has("/mesh") || reader.find("/mesh")->is_object();
+  if (!reader.has("/mesh/strike") && is_readable) {
     reader.problem(reader.has("/mesh") ? "/mesh" : "", "the cells have no size at the faults",
                    "add \"mesh\": { \"strike\": \"50 m\" }");
   }

@@ -112,6 +112,10 @@ class Fuzz : public testing::Test {
 TEST_F(Fuzz, Scenes) {
   std::vector<std::string> corpus = texts_in(
       {"docs/examples/scenes", "docs/examples/verification", "tests/cases/bad_scenes"}, ".json");
+  // One in four is of horizons or of a mesh, which are few among the others.
+  const std::vector<std::string> bodies = texts_in({"tests/cases/bodies"}, ".json");
+  for (std::size_t n = corpus.size() / (3 * bodies.size()); n > 0; --n)
+    corpus.insert(corpus.end(), bodies.begin(), bodies.end());
   for (const char* kind : {"field", "box"}) corpus.push_back(starter_scene(kind));
   sieve(
       "scene", [&](unsigned long seed) { return Mutator(corpus, seed).json(); },

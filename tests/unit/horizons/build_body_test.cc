@@ -375,6 +375,36 @@ TEST(BuildBody, AllNumbersThatMakeNoSenseAreToldAtOnce) {
   EXPECT_THAT(refusal_of(body), HasSubstr("\"F\" has 3 profiles for 2 points of its trace"));
 }
 
+/// "2 mm" for "200 m", say: told at once, and not after minutes when memory ends.
+TEST(BuildBody, MoreCellsThanAnybodySolvesAreRefusedBeforeTheyAreMade) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.cells = {0.002, 800, 0.3};
+  EXPECT_THAT(refusal_of(body), HasSubstr("cells of 0.002 m at the faults and 800 m at most "
+                                          "would make a body of about 92400000 million cells"));
+  body.cells = {0.5, 0.5, 0.3};
+  EXPECT_THAT(refusal_of(body), HasSubstr("about 5322240 million cells")) << "all over";
+  body.cells = {8, 8, 0.3};
+  body.faults.clear();
+  EXPECT_THAT(refusal_of(body), HasSubstr("about 1299 million cells"));
+  body.dividers = {{"rim", {{1000, -2000}, {1000, 2000}}}};
+  body.cells = {0.01, 800, 0.3};
+  EXPECT_THAT(refusal_of(body), HasSubstr("about 57750 million cells")) << "8 cm at the divider";
+}
+
+/// Where growth is nothing, bands about faults are as wide as the box and count once.
+TEST(BuildBody, CellsOfFaultsSideBySideCountOnce) {
+  LayeredBody body = reservoir_body();
+  for (int k = 0; k < 20; ++k) {
+    LayeredFault fault = dipping_fault();
+    fault.name = "F" + std::to_string(k);
+    for (Eigen::Vector2d& point : fault.trace) point.x() = -2900 + 290 * k;
+    body.faults.push_back(fault);
+  }
+  body.cells = {150, 151, 1e-5};
+  EXPECT_THAT(refusal_of(body), testing::Not(HasSubstr("million cells")));
+}
+
 TEST(TetQuality, IsOneOfARegularAndSignedOfATurnedOne) {
   const Vector3d a(0, 0, 0), b(2, 0, 0), c(1, std::sqrt(3.0), 0),
       d(1, 1 / std::sqrt(3.0), std::sqrt(8.0 / 3));

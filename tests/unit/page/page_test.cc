@@ -74,6 +74,8 @@ TEST(RunPage, SaysWhatBecameOfTheRun) {
       page, HasSubstr("<td class=\"words\">F3</td><td>0</td><td class=\"words\">unresolved</td>"));
   EXPECT_THAT(page, HasSubstr("step 1, " + pressures_text({}, 2080)));
   EXPECT_THAT(page, HasSubstr("a warning &amp; what follows"));
+  EXPECT_THAT(page, HasSubstr("The cells are those of tier standard. Measured in plane strain "
+                              "against small ones: χ̄ within 0.018 (rms 0.005)"));
   EXPECT_THAT(page, HasSubstr("faultsim 1.2 (commit 345)"));
   EXPECT_THAT(page, HasSubstr("No fields of this run were kept"));
   EXPECT_EQ(page, page_of(result, field_text())) << "the same bytes again";
