@@ -113,8 +113,8 @@ class ExpressionError : public faultsim::InputError {
 struct SqlFragment {
   std::string text;
   std::vector<Value> parameters;
-  int depth = 0;        ///< what SQLite's parser puts on its stack for it, at most.
-  char chain = 0;       ///< '+' or '*': brackets around a sum or product; 0 = anything else.
+  int depth = 0;   ///< what SQLite's parser puts on its stack for it, at most.
+  char chain = 0;  ///< '+' or '*': brackets around a sum or product; 0 = anything else.
   SqlFragment& operator+=(const SqlFragment& part);
 };
 

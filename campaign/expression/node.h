@@ -86,8 +86,8 @@ struct ParsedText {
   std::vector<std::string> names;  ///< each once, in order of appearance.
 };
 
-/// Text to tree. Throws ExpressionError on syntax, on what SQL could not say and on names that are not among known_names,
-/// which are in ascending order; scopes serve messages.
+/// Text to tree. Throws ExpressionError on syntax, on what SQL could not say and on names that are
+/// not among known_names, which are in ascending order; scopes serve messages.
 ParsedText parse_expression(const std::string& text, const std::vector<std::string>& known_names,
                             const Scopes& scopes);
 

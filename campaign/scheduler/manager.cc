@@ -106,8 +106,7 @@ void Manager::note_lock() {
              holders.empty() ? std::string("another process (an open sqlite3 session, say)")
                              : concat("process ", joined(holders, ", ")),
              "; ", counted(std::ssize(uncommitted_), "result waits", "results wait"),
-             " in memory until it is free",
-             interrupted_ ? "; stop again to give them up" : ""));
+             " in memory until it is free", interrupted_ ? "; stop again to give them up" : ""));
 }
 
 void Manager::note_event(const std::string& kind, const std::string& text) {
@@ -153,8 +152,7 @@ bool Manager::take_requeued() {
 bool Manager::take_next_round() {
   if (plan_->stopped() || chose_fields_ || !options_.next_round) return false;
   bool is_found = false;
-  const bool is_asked =
-      try_store([&] { is_found = options_.next_round(store_, campaign_.name); });
+  const bool is_asked = try_store([&] { is_found = options_.next_round(store_, campaign_.name); });
   if (!is_asked) return true;  // in the next turn again, or it was recorded and its cases wait
   if (!is_found) return false;
   RoundRecord round;
@@ -447,9 +445,9 @@ void Manager::beat() {
   since_beat_ = {};
   bool is_cancelled = false;
   const bool is_told = commit() && try_store([&] {
-    store_.heartbeat(progress_json());
-    is_cancelled = store_.is_cancelled(campaign_.id);
-  });
+                         store_.heartbeat(progress_json());
+                         is_cancelled = store_.is_cancelled(campaign_.id);
+                       });
   if (is_told && is_cancelled && !cancelled_) {
     cancelled_ = true;
     display_.note(concat(campaign_.name, " was cancelled: no more cases are handed out"));

@@ -104,8 +104,8 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
     std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
   const std::string end =
       concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
-             " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before),
-             " of ", hundredths(since_start.seconds()), " s");
+             " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before), " of ",
+             hundredths(since_start.seconds()), " s");
   try {
     store.record_event(info.id, "stopped", end);
   } catch (const StoreBusy& busy) {  // all results are there

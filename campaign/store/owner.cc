@@ -95,8 +95,8 @@ std::vector<std::string> Store::lock_holders() const {
     std::string number, kind, advice, access, file;
     std::int64_t pid = 0;
     if (!(words >> number >> kind >> advice >> access >> pid >> file)) continue;  // "->" waits
-    const bool is_ours = std::ranges::any_of(
-        files, [&](const std::string& inode) { return file.ends_with(inode); });
+    const bool is_ours =
+        std::ranges::any_of(files, [&](const std::string& inode) { return file.ends_with(inode); });
     if (access != "WRITE" || !is_ours || pid <= 0 || pid == getpid()) continue;
     std::string program;
     std::getline(std::ifstream(concat("/proc/", pid, "/comm")) >> std::ws, program);

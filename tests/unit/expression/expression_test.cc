@@ -437,8 +437,8 @@ TEST(Expression, SqlAgreesWithEvaluate) {
 
 /// In the middle of a statement, as deep as the store's are.
 SqlFragment as_column(SqlFragment sql) {
-  sql.text = "(SELECT x.c_offset FROM t x WHERE x.c_zero = 0 AND x.c_chi = 1.5 AND iif(" + sql.text +
-             ", 1, 0))";
+  sql.text = "(SELECT x.c_offset FROM t x WHERE x.c_zero = 0 AND x.c_chi = 1.5 AND iif(" +
+             sql.text + ", 1, 0))";
   return sql;
 }
 
@@ -447,9 +447,9 @@ TEST(Expression, SqlTakesLongChainsAsEvaluateDoes) {
   const struct {
     const char *term, *between;
     int n;
-  } chains[] = {{"chi_bar > 2", " or ", 600},    {"chi_bar < 2", " and ", 600},
-                {"0.1 * chi_bar", " + ", 200},   {"0.1", " / ", 200},
-                {"chi_bar", " / 1.25 * ", 100},  {"activated and zero > 1", " or ", 350}};
+  } chains[] = {{"chi_bar > 2", " or ", 600},   {"chi_bar < 2", " and ", 600},
+                {"0.1 * chi_bar", " + ", 200},  {"0.1", " / ", 200},
+                {"chi_bar", " / 1.25 * ", 100}, {"activated and zero > 1", " or ", 350}};
   for (const auto& [term, between, n] : chains) {
     std::string text = term;
     for (int i = 1; i < n; ++i) text += std::string(between) + term;
@@ -470,11 +470,16 @@ TEST(Expression, WhatIsNotTooDeepIsTakenBySql) {
   const struct {
     const char *begin, *end;
     bool is_condition;
-  } levels[] = {{"not ", "", true},          {"-", "", false},
-                {"(activated or ", ")", true}, {"(", " and activated)", true},
-                {"(2 + ", ")", false},         {"(", " ^ 2)", false},
-                {"max(1, ", ")", false},       {"abs(", ")", false},
-                {"2 / (3 * ", ")", false},     {"(not activated and (activated or ", "))", true}};
+  } levels[] = {{"not ", "", true},
+                {"-", "", false},
+                {"(activated or ", ")", true},
+                {"(", " and activated)", true},
+                {"(2 + ", ")", false},
+                {"(", " ^ 2)", false},
+                {"max(1, ", ")", false},
+                {"abs(", ")", false},
+                {"2 / (3 * ", ")", false},
+                {"(not activated and (activated or ", "))", true}};
   for (const auto& [begin, end, is_condition] : levels) {
     std::string text = is_condition ? "activated" : "chi_bar";
     int n_levels = 0;
