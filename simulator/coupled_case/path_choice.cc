@@ -11,11 +11,12 @@ std::string gigabytes(double bytes) { return formatted("%.2g GB", bytes / 1e9); 
 
 double coupled_bytes(const Plan& plan, bool by_columns) {
   const auto n_unknowns = static_cast<double>(plan.n_unknowns);
-  // results/solver-study: 4.0 and 3.7 kB in histories of 77,682 and 1,019,133 unknowns in which
+  // results/solver-study: 4.1 and 3.8 kB in histories of 77,682 and 1,019,133 unknowns in which
   // faults slip; 5.0 and 5.1 where all stick and systems are solved to 1e-8 (more vectors).
   constexpr double kPerUnknown = 5e3;
   if (!by_columns) return kPerUnknown * n_unknowns;
-  constexpr double kStuck = 4e3;   // no multipliers, one matrix for the whole history; 3.6 measured
+  // 3.6 kB in 15 minutes of rotliegend-weakening at demonstration (77,682 unknowns).
+  constexpr double kStuck = 4e3;   // no multipliers, one matrix for the whole history
   constexpr double kMoving = 0.5;  // of the jumps
   const auto n_jump = static_cast<double>(plan.n_jump);
   return kStuck * n_unknowns + 8 * kMoving * n_jump * n_jump;

@@ -96,7 +96,7 @@ void check_fault(const LayeredBody& body, const LayeredFault& fault, const std::
 }
 
 /// m, of a trace; pieces that leave the box count as its diagonal at most.
-double length_of(const std::vector<Eigen::Vector2d>& trace, double diagonal) {
+double clipped_length(const std::vector<Eigen::Vector2d>& trace, double diagonal) {
   double length = 0;
   for (std::size_t k = 0; k + 1 < trace.size(); ++k)
     length += std::min((trace[k + 1] - trace[k]).norm(), diagonal);
@@ -118,10 +118,10 @@ double cells_needed(const LayeredBody& body) {
   double fine = 0;
   for (const LayeredFault& fault : body.faults) {
     const double height = fault.top.value_or(body.top) - fault.bottom.value_or(body.base);
-    fine += length_of(fault.trace, diagonal) * height * beside(cells.at_faults);
+    fine += clipped_length(fault.trace, diagonal) * height * beside(cells.at_faults);
   }
   for (const Divider& divider : body.dividers)
-    fine += length_of(divider.line, diagonal) * depth * beside(cells.beside_dividers());
+    fine += clipped_length(divider.line, diagonal) * depth * beside(cells.beside_dividers());
   fine = std::min(fine, area * depth / std::pow(cells.at_faults, 3));
   return kPerCube * (fine + area * depth / std::pow(cells.far, 3));
 }
