@@ -58,7 +58,7 @@ std::optional<Eigen::Index> nearest_split(const StoredFault& fault, const Eigen:
 
 std::size_t stored_entry(Chosen& chosen) {
   const std::vector<int>& steps = chosen.picture.fields->steps();
-  if (steps.empty()) refuse("--step", "the fields hold no load step", "run the case again");
+  if (steps.empty()) refuse("--step", "the fields contain no load step", "run the case again");
   const int wanted = chosen.result().steps[chosen.step].step;
   const auto after = std::ranges::upper_bound(steps, wanted);
   const std::size_t entry =

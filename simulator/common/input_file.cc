@@ -48,7 +48,7 @@ std::string kind_of(mode_t mode) {
 /// The state of an open file that can be read as a whole, or why it cannot.
 InputText look_at(const std::string& path, const Descriptor& file, struct stat& status) {
   if (path.find('\0') != std::string::npos) {
-    return refused("the name of the file holds a NUL", "remove it");
+    return refused("the name of the file contains a NUL", "remove it");
   }
   if (file.number() < 0) return unreadable(errno);
   if (fstat(file.number(), &status) != 0) return unreadable(errno);

@@ -92,7 +92,7 @@ std::string lost_cohesion_text(const ContactProblem& problem, const SubStep& sub
 
 std::string too_many_jumps_text(std::size_t n_jumps, double from) {
   return text(n_jumps, " instabilities were followed up to load factor ", from,
-              " of the step, and there are more; take smaller load steps, a finer mesh or raise "
+              " of the step, and there are more; use smaller load steps or a finer mesh, or raise "
               "/numerics/max_events");
 }
 

@@ -249,7 +249,7 @@ void CoupledContact::iterate(const Eigen::VectorXd& force, double level, double 
   ForcingTerm forcing(options_.krylov_tolerance, 0.1 * options_.traction_tolerance, residual);
   while (!report.converged) {
     if (report.newton_iterations() == options_.max_newton_iterations) {
-      report.reason = concat("Newton's method goes on changing after ", report.newton_iterations(),
+      report.reason = concat("Newton's method keeps changing after ", report.newton_iterations(),
                              " iterations, ", at.n_changed, " states in the last");
       return;
     }

@@ -195,7 +195,7 @@ class SchemaChecker {
               : concat("write at most ", rules.max_items));
     }
     if (rules.unique_items && has_equal_elements(value)) {
-      add(place.pointer(), as_text(value) + " has equal elements", "remove one of them");
+      add(place.pointer(), as_text(value) + " has duplicate elements", "remove one of them");
     }
   }
 

@@ -71,7 +71,7 @@ std::vector<Problem> problems_of_place(const fs::path& parent) {
 
 Problem problem_of_special_file(const fs::path& target, const fs::file_status& status) {
   const char* what = fs::is_directory(status) ? " is a folder"
-                     : fs::is_symlink(status) ? " is a link to nowhere"
+                     : fs::is_symlink(status) ? " is a broken link"
                                               : " is not a regular file";
   return {"", 0, concat(target.string(), what),
           fs::is_directory(status) ? "name a file in it" : "name a file"};

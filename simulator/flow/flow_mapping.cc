@@ -149,10 +149,10 @@ FlowOverlaps flow_overlaps(const FlowField& field, const std::vector<MappedCell>
   for (const MappedCell& cell : cells) {
     const double sum = overlaps_of(cell, field, search, all.emplace_back());
     if (sum > (1 + kTwice) * cell_volume(cell.corners)) {
-      throw InputError(
-          "flow field", "flow cells overlap at " + where(cell),
-          "give every place one cell: layers of a grid (ZCORN) below each other, no refined "
-          "parents; a table of points of a grid whose pillars lean needs its columns i, j and k");
+      throw InputError("flow field", "flow cells overlap at " + where(cell),
+                       "give every place one cell: grid layers (ZCORN) one below the other, no "
+                       "refined parents; a "
+                       "table of points of a grid with leaning pillars needs columns i, j and k");
     }
   }
   return all;

@@ -83,7 +83,7 @@ std::vector<IntegralBalance> balances(const FlowMapping& mapping,
       problems.push_back({"", 0,
                           "no flow cell counts with " + region_names[r] +
                               ", which takes changes from beside it: no integral can be kept",
-                          "leave \"integral\" out, or say \"outside\": \"unchanged\""});
+                          "leave \"integral\" out, or write \"outside\": \"unchanged\""});
       continue;
     }
     problems.push_back(
@@ -92,9 +92,9 @@ std::vector<IntegralBalance> balances(const FlowMapping& mapping,
                    "differ by up to %.3g times the former; it has %.3g m3, they %.3g m3",
                    region_names[r].c_str(), off / size, volumes_of_ours(mapping)[r],
                    volume_of_theirs(mapping, r)),
-         "check where the compartment lies and how thick its layers are; flow cells far from it "
-         "count with it too by \"integral\": \"flow_grid\": leave that out where the model is a "
-         "part of the field"});
+         "check where the compartment lies and how thick its layers are; with \"integral\": "
+         "\"flow_grid\", flow cells far from it count with it too: leave that out where the model "
+         "is only part of the field"});
   }
   if (!problems.empty()) throw InputError("flow field", problems);
   return balance;

@@ -175,7 +175,7 @@ void LevelFinder::check_order() {
                     worst > 0 ? concat(" touch: ", decimal(worst, 2), " m between them")
                               : concat(" cross, worst by ", decimal(-worst, 1), " m")),
              cut_.vertex[where], k == 0 ? body_.top : levels_.horizons[where][k - 1],
-             "keep a layer between them, less throw, or a box that holds them");
+             "keep a layer between them, reduce the throw, or use a box that contains them");
   }
 }
 

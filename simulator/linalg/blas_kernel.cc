@@ -127,8 +127,8 @@ std::string blas_kernel_reason() {
     return concat(kCoreType, "=", asked, " is not a kernel of this library, which chose this one");
   if (!instead_of.empty())
     return concat("chosen by faultsim: ", info.library,
-                  " does not know this processor and would take ", instead_of,
-                  ", which leaves its ", to_string(vector_set_of_processor()), " unused");
+                  " does not know this processor and would use ", instead_of, ", which leaves its ",
+                  to_string(vector_set_of_processor()), " unused");
   if (!asked.empty()) return concat("set by ", kCoreType);
   const std::optional<std::string> wider =
       wider_kernel(info.kernel, vector_set_of_processor(), library_has);

@@ -165,7 +165,7 @@ class Warnings {
                             brief(worst / 1e6), " MPa, ",
                             brief(scene_.numerics.creep_tolerance / 1e6),
                             " MPa are allowed, or a fault jumps while the salt creeps; raise "
-                            "/numerics/creep_refinements or take shorter load steps"));
+                            "/numerics/creep_refinements or use shorter load steps"));
   }
 
   void penetration() {
@@ -181,7 +181,7 @@ class Warnings {
       if (friction.cohesion > 0 || friction.static_friction_angle > 0) continue;
       texts_.push_back("fault " + fault.name +
                        " has neither friction nor cohesion: it slips under any shear, and its "
-                       "critical index is taken against 1 kPa");
+                       "critical index is relative to a strength of 1 kPa");
     }
   }
 

@@ -183,10 +183,10 @@ class LayoutBuilder {
     const double most = std::abs(shear.slope) * std::max(std::abs(shear.high - shear.pivot),
                                                          std::abs(shear.low - shear.pivot));
     if (most > (1 - Shear::kLeastGap) * std::min(first_end - spec_.from[b], spec_.to[b] - last_end))
-      problems_.push_back(
-          {"/faults", 0,
-           concat("the ends of the patches come too near the ", kAxisName[b], " sides of the box"),
-           "enlarge the box or let the patches pass beyond it"});
+      problems_.push_back({"/faults", 0,
+                           concat("the ends of the patches come too close to the ", kAxisName[b],
+                                  " sides of the box"),
+                           "enlarge the box or let the patches pass beyond it"});
     shear.knot = {spec_.from[b], first_end, last_end, spec_.to[b]};
     shear.weight = {0, 1, 1, 0};
     layout_.column_shear = shear;
@@ -337,7 +337,7 @@ class LayoutBuilder {
         owner[order[side && gap > 0 ? sorted.size() - 1 : static_cast<size_t>(gap)]];
     const std::string other = side ? concat("the ", kAxisName[layout_.axis], " side of the box")
                                    : concat("patch ", owner[order[static_cast<size_t>(gap) - 1]]);
-    problems_.push_back({patch_pointer(right), 0, concat("crosses or comes too near ", other),
+    problems_.push_back({patch_pointer(right), 0, concat("crosses or comes too close to ", other),
                          "move them apart, make them parallel, or enlarge the box"});
   }
 

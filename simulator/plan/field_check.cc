@@ -137,10 +137,11 @@ class FieldChecker {
         continue;
       }
       is_enough = false;
-      problem(concat(what, ", which lies at ", text_of(extent_of_region(r)), "; its cells at ",
-                     text_of(extent_of(*there_))),
-              "check the units, \"origin\" and \"azimuth\" of the field and the place of the "
-              "compartment; if so little is meant, say \"outside\": \"nearest\" or \"unchanged\"");
+      problem(
+          concat(what, ", which lies at ", text_of(extent_of_region(r)), "; its cells at ",
+                 text_of(extent_of(*there_))),
+          "check the units, \"origin\" and \"azimuth\" of the field and the place of the "
+          "compartment; if so little is intended, write \"outside\": \"nearest\" or \"unchanged\"");
     }
     return is_enough;
   }

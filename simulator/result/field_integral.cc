@@ -42,7 +42,7 @@ std::string whole_text(const FieldIntegral& one) {
   const FieldIntegral::Whole& whole = *one.whole;
   if (!(whole.flow_volume > 0)) return " (none counts with it)";
   return formatted(
-      " (%.4g m3, of which %.4g %% lie in it): for that changes are scaled by up to %.2g %%",
+      " (%.4g m3, of which %.4g %% lie in it): for this, changes are scaled by up to %.2g %%",
       whole.flow_volume, 100 * std::min(1.0, one.covered / whole.flow_volume),
       100 * whole.largest_scaling);
 }

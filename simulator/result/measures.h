@@ -61,13 +61,15 @@ void for_each_measure(auto& m, auto&& visit) {
         m.moment);
   visit(Field{.key = "n_events", .meaning = "slip events: jumps of equilibrium that were followed"},
         m.n_events);
-  visit(Field{.key = "event_moment_nm", .meaning = "M0 of the largest slip event; 0 without"},
+  visit(Field{.key = "event_moment_nm",
+              .meaning = "M0 of the largest slip event; 0 if there is none"},
         m.event_moment);
   visit(Field{.key = "event_magnitude_mw",
-              .meaning = "Mw of the largest slip event; none without, or in plane strain"},
+              .meaning = "Mw of the largest slip event; none without events, or in plane strain"},
         m.event_magnitude);
   visit(Field{.key = "event_stress_drop_pa",
-              .meaning = "stress drop of the largest slip event, weighted by slip; none without",
+              .meaning =
+                  "stress drop of the largest slip event, weighted by slip; none without events",
               .since = 12},
         m.event_stress_drop);
   visit(Field{.key = "chi_bar",

@@ -190,7 +190,7 @@ CaseResult result_from_bytes(std::string_view bytes) {
                         ByteReader reader(bytes.substr(2 * kPrint));
                         CaseResult result;
                         for_each_field(result, reader);
-                        if (reader.n_left() > 0) throw StorageError("there are bytes behind it");
+                        if (reader.n_left() > 0) throw StorageError("there are bytes after it");
                         return result;
                       });
 }

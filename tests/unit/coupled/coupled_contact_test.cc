@@ -174,7 +174,7 @@ TEST(CoupledContact, SaysSoWhenItDoesNotConverge) {
   Eigen::VectorXd u = Eigen::VectorXd::Zero(example.bulk.n_displacements());
   const CoupledStepReport report = contact.advance({{-1e6, 0.1, 0.1, 0}, background}, state, u);
   EXPECT_FALSE(report.converged);
-  EXPECT_THAT(report.reason, testing::HasSubstr("goes on changing after 1 iterations"));
+  EXPECT_THAT(report.reason, testing::HasSubstr("keeps changing after 1 iterations"));
   EXPECT_EQ(u.norm() + state.jump.norm(), 0) << "left as it was";
 }
 

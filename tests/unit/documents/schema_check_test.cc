@@ -100,7 +100,7 @@ TEST(CheckSchema, FindsEqualElementsInLongListsToo) {
   for (int i = 0; i < 20'000; ++i) list += std::to_string(i) + ",";
   EXPECT_EQ(problems_of("{\"list\": [" + list + "-1]}", schema), "");
   EXPECT_EQ(problems_of("{\"list\": [" + list + "7]}", schema),
-            "f:1: /list: [0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,1... has equal elements; "
+            "f:1: /list: [0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,1... has duplicate elements; "
             "remove one of them");
 }
 
