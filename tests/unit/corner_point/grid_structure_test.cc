@@ -288,7 +288,7 @@ TEST(GridStructure, FaultsGoOnThroughHoles) {
   EXPECT_EQ(found.compartments.size(), 2u);
   EXPECT_EQ(found.n_active_columns, 316);
   EXPECT_EQ(found.n_hole_columns, 4);
-  EXPECT_THAT(text_of(found), HasSubstr("4 inactive columns that active ones enclose"));
+  EXPECT_THAT(text_of(found), HasSubstr("4 inactive columns enclosed by active ones"));
 }
 
 /// Nobody says where inactive cells lie: at the surface, or with the bottom above the top.
