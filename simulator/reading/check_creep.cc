@@ -34,7 +34,7 @@ void check_time_step(SceneReader& reader, const Scene& scene) {
   const std::string at = "/numerics/creep_time_step";
   if (!reader.has(at)) return;
   if (reader.has("/numerics/creep_refinements")) {
-    reader.problem("/numerics/creep_refinements", "has no effect beside \"creep_time_step\"",
+    reader.problem("/numerics/creep_refinements", "has no effect alongside \"creep_time_step\"",
                    "remove one of the two");
   }
   if (!reader.sound("/stages")) return;

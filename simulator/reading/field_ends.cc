@@ -13,7 +13,7 @@ void read_field_ends(SceneReader& reader, const std::string& at, const std::stri
   if (reader.has(at + "length")) {
     if (y_from || y_to) {
       reader.problem(at + "length",
-                     concat("is given beside ", y_from ? "y_from" : "y_to",
+                     concat("is given alongside ", y_from ? "y_from" : "y_to",
                             ", but fixes both ends: it is centred on y = 0"),
                      "remove one of the two");
       return;

@@ -164,7 +164,7 @@ void read_initial_state(SceneReader& reader, Scene& scene) {
   for (const char* key : {"vertical_stress", "vertical_stress_gradient", "ratio_across",
                           "ratio_along", "initial_biot"}) {
     if (reader.has(at + key)) {
-      reader.problem(at + key, "has no effect beside \"tensor\"", "remove one of the two");
+      reader.problem(at + key, "has no effect alongside \"tensor\"", "remove one of the two");
     }
   }
 }

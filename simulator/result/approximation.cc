@@ -34,7 +34,7 @@ std::string surface_sentence(const CaseSurface& surface) {
                                 ? concat("; there χ̄ of ", surface.n_cases,
                                          " cases is off by at most ", at_most(*surface.chi_bar))
                                 : std::string();
-  return concat("Its operator is interpolated on ", surface.n_operators,
+  return concat("Its operator is interpolated between ", surface.n_operators,
                 " exact ones, off by at most ", errors, surface.stability ? ", " : " and ",
                 at_most(surface.slip), " in slip without friction", stability, " at ",
                 surface.n_checks, " check points", cases, ".");

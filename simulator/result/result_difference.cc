@@ -296,7 +296,7 @@ Sentences kinds(const CaseResult& before, const CaseResult& after) {
                           ? "It is in plane strain now, and was in three dimensions."
                           : "It is in three dimensions now, and was in plane strain.");
   const auto interpolated = [](const CaseSurface& surface) {
-    return concat("interpolated on ", surface.n_operators, " exact ones",
+    return concat("interpolated between ", surface.n_operators, " exact ones",
                   surface.chi_bar ? concat(" (χ̄ off by up to ", three(*surface.chi_bar), ")") : "");
   };
   if (after.surface && !before.surface)

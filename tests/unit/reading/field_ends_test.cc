@@ -144,7 +144,7 @@ TEST(FieldEnds, AreRefusedWithPlaceAndCure) {
   };
   const Problem both = one({{block + "length", "1 km"}, {block + "y_to", "400 m"}});
   EXPECT_EQ(both.pointer, block + "length");
-  EXPECT_THAT(both.what, HasSubstr("is given beside y_to"));
+  EXPECT_THAT(both.what, HasSubstr("is given alongside y_to"));
   const Problem none = one({{block + "y_from", "500 m"}, {block + "y_to", "500 m"}});
   EXPECT_EQ(none.pointer, block + "y_to");
   EXPECT_THAT(none.what, HasSubstr("block \"west\" reaches from y = 500 m to 500 m"));

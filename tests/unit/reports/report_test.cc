@@ -219,7 +219,7 @@ TEST_F(ReportTest, ShowSaysHowAResultCameAboutAndWhyFiguresDiffer) {
                         "4.52e+14 N m"));
   one.stored.result.surface = faultsim::CaseSurface{75, 73, 12, 0.01, 2e-3, 3e-3, 4e-3, 5e-3};
   const std::string sentence = faultsim::approximation_sentence(one.stored.result);
-  EXPECT_THAT(sentence, HasSubstr("interpolated on 75 exact ones"));
+  EXPECT_THAT(sentence, HasSubstr("interpolated between 75 exact ones"));
   EXPECT_THAT(render_text(to_answer(one), 1000), HasSubstr(sentence));
   EXPECT_EQ(render_json(to_answer(one))["result"]["surface"]["error_of_slip"], 5e-3);
   EXPECT_THAT(render_html(to_answer(one)), HasSubstr(sentence));

@@ -26,24 +26,27 @@ TEST(ApproximationSentence, IsNoneOfAnExactResult) {
 
 TEST(ApproximationSentence, SaysTheMeasuredErrorsOfASurface) {
   CaseResult result = interpolated();
-  EXPECT_EQ(approximation_sentence(result),
-            "Its operator is interpolated on 75 exact ones, off by at most 1.2e-4 in H, 3e-5 in "
-            "the locked traction and 6e-4 in slip without friction at 12 check points.");
+  EXPECT_EQ(
+      approximation_sentence(result),
+      "Its operator is interpolated between 75 exact ones, off by at most 1.2e-4 in H, 3e-5 in "
+      "the locked traction and 6e-4 in slip without friction at 12 check points.");
   result.surface->observation = 2e-6;
-  EXPECT_EQ(approximation_sentence(result),
-            "Its operator is interpolated on 75 exact ones, off by at most 1.2e-4 in H, 3e-5 in "
-            "the locked traction, 2e-6 in what is observed and 6e-4 in slip without friction at "
-            "12 check points.");
+  EXPECT_EQ(
+      approximation_sentence(result),
+      "Its operator is interpolated between 75 exact ones, off by at most 1.2e-4 in H, 3e-5 in "
+      "the locked traction, 2e-6 in what is observed and 6e-4 in slip without friction at "
+      "12 check points.");
 }
 
 TEST(ApproximationSentence, SaysHowFarCasesAreOff) {
   CaseResult result = interpolated();
   result.surface->n_cases = 24;
   result.surface->chi_bar = 1.31e-3;
-  EXPECT_EQ(approximation_sentence(result),
-            "Its operator is interpolated on 75 exact ones, off by at most 1.2e-4 in H, 3e-5 in "
-            "the locked traction and 6e-4 in slip without friction at 12 check points; there χ̄ of "
-            "24 cases is off by at most 1.4e-3.");
+  EXPECT_EQ(
+      approximation_sentence(result),
+      "Its operator is interpolated between 75 exact ones, off by at most 1.2e-4 in H, 3e-5 in "
+      "the locked traction and 6e-4 in slip without friction at 12 check points; there χ̄ of "
+      "24 cases is off by at most 1.4e-3.");
 }
 
 /// "At most" must stay true.

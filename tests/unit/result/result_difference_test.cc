@@ -232,10 +232,11 @@ TEST(DifferenceSentences, CountASurfacesErrorsAndSayThatOneIsExact) {
   after.surface = CaseSurface{.n_operators = 75};
   after.surface->chi_bar = 0.01;
   after.whole.faults[1].chi_bar = 0.849;
-  EXPECT_THAT(difference_sentences(before, after),
-              ElementsAre(HasSubstr("Nothing changes beyond 0.01 in the largest χ̄"),
-                          "The operator is interpolated on 75 exact ones (χ̄ off by up to 0.01) "
-                          "now, and was exact."));
+  EXPECT_THAT(
+      difference_sentences(before, after),
+      ElementsAre(HasSubstr("Nothing changes beyond 0.01 in the largest χ̄"),
+                  "The operator is interpolated between 75 exact ones (χ̄ off by up to 0.01) "
+                  "now, and was exact."));
   after.whole.faults[1].chi_bar = 0.851;
   EXPECT_THAT(difference_sentences(before, after), Not(Contains(HasSubstr("Nothing changes"))));
 }
