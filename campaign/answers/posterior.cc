@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 #include "campaign/answers/probability.h"
 #include "campaign/common/names.h"

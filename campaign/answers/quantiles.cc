@@ -148,7 +148,7 @@ std::string sentence_of(const Quantiles& q, const MetricQuantiles& one) {
 }
 
 /// What the cells leave open of a metric, and its measured error; "" = nothing.
-std::string undecided_note(const Quantiles& q, const MetricQuantiles& one) {
+std::string open_note(const Quantiles& q, const MetricQuantiles& one) {
   const bool is_sample = q.sampling.is_random;
   std::string text;
   if (one.n_unresolved > 0)
@@ -221,7 +221,7 @@ Answer to_answer(const Quantiles& q) {
       answer.note(concat(q.n_unknown, " cases without a full history have no value here."));
   }
   for (const MetricQuantiles& one : q.metrics) {
-    answer.note_if(undecided_note(q, one));
+    answer.note_if(open_note(q, one));
     if (one.n_without > 0)
       answer.note(concat(one.n_without, " full histories have no ", one.metric.name,
                          ": they are left out."));

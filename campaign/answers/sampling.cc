@@ -43,7 +43,7 @@ std::set<std::string> selected_groups(const Store& store, const CampaignInfo& ca
 /// The groups that the answer is about: all, unless a condition leaves some out.
 std::vector<json> asked_groups(const Store& store, const CampaignInfo& campaign, const json& spec,
                                const SampledCases& cases) {
-  std::vector<json> groups = spec.at("groups");
+  auto groups = spec.at("groups").get<std::vector<json>>();
   if (groups.size() < 2 || cases.where.empty()) return groups;
   if (share_cases(store.design_rows(campaign.id))) return groups;
   const std::set<std::string> names = selected_groups(store, campaign, cases);

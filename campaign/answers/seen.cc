@@ -5,6 +5,7 @@
 #include <regex>
 
 #include "campaign/common/names.h"
+#include "simulator/common/printable.h"
 
 namespace faultsweep {
 
@@ -18,13 +19,6 @@ constexpr const char* kForms =
 
 /// Of a statement: std::regex_match makes a call within a call for each.
 constexpr std::size_t kMostLetters = 2000;
-
-/// The beginning of a text of which messages cannot show all.
-std::string beginning_of(const std::string& text) {
-  std::size_t end = 60;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
-  return text.substr(0, end) + "…";
-}
 
 /// Whether this is how a statement may name the fault: as it is called, or in quotes.
 bool is_name_of(const std::string& name, const NamedId& fault) {
@@ -55,7 +49,8 @@ class StatementReader {
     statement_ = {};
     statement_.text = text;
     if (text.size() > kMostLetters) {
-      statement_.text = beginning_of(text);
+      constexpr std::size_t kMostShown = 60;
+      statement_.text = faultsim::shortened(text, kMostShown);
       problem(concat("has ", text.size(), " characters"),
               concat("write at most ", kMostLetters, ", or several statements"));
       return statement_;

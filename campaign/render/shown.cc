@@ -52,8 +52,12 @@ std::string with_error(double value, double error) {
   constexpr int kMostPlaces = 6;
   if (place > 0 && place < kMostPlainDigits && std::abs(value) < 100)
     return concat(formatted("%.0f", std::round(value) + 0.0), " ± ", format_number(error, 1));
-  if (place > 0 || place < -kMostPlaces)
-    return concat(format_number(value, 3), " ± ", format_number(error, 1));
+  if (place > 0 || place < -kMostPlaces) {
+    const std::string number = format_number(value, 3);
+    // Both plainly, or neither.
+    const bool is_plain = number.find("e+") == std::string::npos;
+    return concat(number, " ± ", is_plain ? format_number(error, 1) : text);
+  }
   return formatted("%.*f ± %.*f", -place, value + 0.0, -place, error);
 }
 

@@ -310,7 +310,7 @@ void Manager::handle_result(int worker, JobEvents::Completed completed) {
   add_run(std::move(run));
 }
 
-std::optional<JobEvents::Failure> Manager::refuse_fields(const RunRecord& run) const {
+std::optional<JobEvents::Failure> Manager::refuse_fields(const RunRecord& run) {
   std::optional<faultsim::CaseResult> stored;
   insist([&] { stored = store_.stored_result(run.case_id); });
   FAULTSIM_DEMAND(stored.has_value(), run.case_id);

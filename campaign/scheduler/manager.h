@@ -69,7 +69,7 @@ class Manager {
   /// A run for fields only must repeat the stored result bit for bit: the fields are those of that
   /// result or they are removed. With the same operator a difference is our bug, with another one
   /// (another BLAS kernel, hence other last bits) the world's doing. Nothing = they are kept.
-  std::optional<JobEvents::Failure> refuse_fields(const RunRecord& run) const;
+  std::optional<JobEvents::Failure> refuse_fields(const RunRecord& run);
   void handle_failure(int worker, const JobEvents::Failure& failure);
   void hand_out();
   void send_work(int worker, const Slice& slice);

@@ -70,9 +70,9 @@ std::optional<double> physical_memory() {
 
 MemoryForOperators memory_for_operators(std::optional<double> available,
                                         std::optional<double> physical) {
-  constexpr double kShare = 0.9, kShareOfPhysical = 0.5, kGigabyte = 1e9;
+  constexpr double kShareOfPhysical = 0.5, kGigabyte = 1e9;
   constexpr double kLeast = 1;  // byte: 0 would mean no limit; operators are then built one by one
-  if (available) return {std::max(kLeast, kShare * *available), ""};
+  if (available) return {std::max(kLeast, kMemoryShare * *available), ""};
   const std::string unknown = "it is not known how much memory is available";
   if (!physical) return {0, unknown + ": operators are not limited; give --memory"};
   const double bytes = kShareOfPhysical * *physical;

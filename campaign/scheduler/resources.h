@@ -23,8 +23,11 @@ struct MemoryForOperators {
   double bytes = 0;    ///< 0 = not limited.
   std::string remark;  ///< what is assumed where it is not known what is available; "" = it is.
 };
-/// 0.9 of what is available when a campaign starts: the rest is for results and cache. Half of the
-/// physical memory where that is not known.
+/// Of the available memory that operators may take.
+inline constexpr double kMemoryShare = 0.9;
+
+/// kMemoryShare of what is available when a campaign starts: the rest is for results and cache.
+/// Half of the physical memory where that is not known.
 MemoryForOperators memory_for_operators(std::optional<double> available,
                                         std::optional<double> physical);
 

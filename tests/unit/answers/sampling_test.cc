@@ -16,7 +16,7 @@ using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr int kRows = 160;  ///< of a group.
+constexpr int kRowsOfGroup = 160;
 
 class SamplesOfGroups : public AnswersTest {
  protected:
@@ -26,22 +26,24 @@ class SamplesOfGroups : public AnswersTest {
                      {"strength", faultsim::Dimension::number, false}};
   }
   static json group(const std::string& name, const std::string& kind, const json& keys = {}) {
+    json parameters = json::array();
+    parameters.push_back({{"name", "strength"}});
     json one = {{"name", name},
                 {"kind", kind},
                 {"seed", 1},
-                {"samples", kRows},
-                {"parameters", {{{"name", "strength"}}}},
+                {"samples", kRowsOfGroup},
+                {"parameters", parameters},
                 {"scene", {{"tier", "screening"}}}};
     if (!keys.is_null()) one.update(keys);
     return one;
   }
-  /// Each group has kRows cases, of which half slide.
+  /// Each group has kRowsOfGroup cases, of which half slide.
   /// @param n_shared  so many rows of the second group are cases of the first.
   void submit_groups(const std::vector<json>& groups, int n_shared = 0) {
     for (std::size_t g = 0; g < groups.size(); ++g) {
-      for (int k = 0; k < kRows; ++k) {
+      for (int k = 0; k < kRowsOfGroup; ++k) {
         const bool is_shared = g == 1 && k < n_shared;
-        if (!is_shared) add_case(groups[g].at("name"), (k + 0.5) / kRows);
+        if (!is_shared) add_case(groups[g].at("name"), (k + 0.5) / kRowsOfGroup);
         const auto position = is_shared ? k + 1 : static_cast<long>(s_.cases.size());
         s_.design_rows.push_back({static_cast<int>(g), k + 1, position});
       }
@@ -116,12 +118,13 @@ TEST_F(SamplesOfGroups, OfOtherSeedsAreASample) {
 }
 
 TEST_F(SamplesOfGroups, OfOneSeedThatGoesOnAreASample) {
-  submit_groups({group("a", "monte-carlo"), group("b", "monte-carlo", {{"first", kRows}})});
+  submit_groups({group("a", "monte-carlo"), group("b", "monte-carlo", {{"first", kRowsOfGroup}})});
   EXPECT_TRUE(is_random());
 }
 
 TEST_F(SamplesOfGroups, OfOneSeedThatOverlapAreNot) {
-  submit_groups({group("a", "monte-carlo"), group("b", "monte-carlo", {{"first", kRows - 1}})});
+  submit_groups(
+      {group("a", "monte-carlo"), group("b", "monte-carlo", {{"first", kRowsOfGroup - 1}})});
   EXPECT_FALSE(is_random());
 }
 
@@ -162,14 +165,12 @@ TEST_F(SamplesOfGroups, ThatAreChosenAreNone) {
   EXPECT_TRUE(is_random("group = 'b'"));
 }
 
-/// Four angles, each with the same forty cohesions: four independent draws, not 160.
+/// Four angles, each with the same 40 cohesions: four independent draws, not 160.
 TEST_F(SamplesOfGroups, OfANestedDesignShareDraws) {
   const json inner = group("", "monte-carlo");
-  submit_groups({{{"name", ""},
-                  {"kind", "nested"},
-                  {"designs", {inner, inner}},
-                  {"parameters", {{{"name", "strength"}}}},
-                  {"scene", {{"tier", "screening"}}}}});
+  json nested = group("", "nested");
+  nested["designs"] = json::array({inner, inner});
+  submit_groups({nested});
   EXPECT_FALSE(is_random());
   EXPECT_FALSE(is_random("strength > 0.1"));
   EXPECT_THAT(remark(), HasSubstr("in a nested design each row of one design goes with every row"));
