@@ -98,8 +98,9 @@ std::vector<std::string> Store::lock_holders() const {
     const bool is_ours =
         std::ranges::any_of(files, [&](const std::string& inode) { return file.ends_with(inode); });
     if (access != "WRITE" || !is_ours || pid <= 0 || pid == getpid()) continue;
+    std::ifstream name(concat("/proc/", pid, "/comm"));
     std::string program;
-    std::getline(std::ifstream(concat("/proc/", pid, "/comm")) >> std::ws, program);
+    std::getline(name, program);
     const std::string holder = program.empty() ? concat(pid) : concat(pid, " (", program, ")");
     if (!faultsim::contains(holders, holder)) holders.push_back(holder);
   }

@@ -208,12 +208,14 @@ TEST(Expansion, ExpressionsSeeValuesWithinReplacedObjects) {
       "strong": {"/friction": {"friction_angle": "28 deg", "cohesion": "0 MPa"}}}},
       "offset": ["0 m", "100 m"]})";
   const auto derived = expand_grid(
-      strengths, R"("derived": {"ratio_along": "0.5 + friction_angle / (100 deg)"
-}, )");
-  EXPECT_NEAR(scene_of(derived, derived.cases[0])["initial_state"]["ratio_along"], 0.6, 1e-12);
-EXPECT_NEAR(scene_of(derived, derived.cases[2])["initial_state"]["ratio_along"], 0.78, 1e-12);
-const auto excluded = expand_grid(strengths, R"("exclude": ["friction_angle < 15 deg"], )");
-EXPECT_EQ(excluded.case_of_row[0], (std::vector<int>{-1, -1, 0, 1}));
+      strengths, R"("derived": {"ratio_along": "0.5 + friction_angle / (100 deg)"}, )");
+  const auto ratio_along = [&](int number) {
+    return scene_of(derived, derived.cases[number])["initial_state"]["ratio_along"].get<double>();
+  };
+  EXPECT_NEAR(ratio_along(0), 0.6, 1e-12);
+  EXPECT_NEAR(ratio_along(2), 0.78, 1e-12);
+  const auto excluded = expand_grid(strengths, R"("exclude": ["friction_angle < 15 deg"], )");
+  EXPECT_EQ(excluded.case_of_row[0], (std::vector<int>{-1, -1, 0, 1}));
 }
 
 TEST(Expansion, AReplacedObjectWithoutTheValueThatAnExpressionUsesIsRefused) {

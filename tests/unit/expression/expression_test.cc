@@ -95,17 +95,17 @@ TEST(Expression, NamesInQuotes) {
   EXPECT_EQ(sql("rule = \"my offset\""), "(c_rule = ?)") << "text is compared with a text";
   EXPECT_EQ(sql("rule = \"/tier\""), "(c_rule = ?)") << "as it was where no such name is known";
   EXPECT_EQ(sql("\"my offset\" = \"/tier\""), "(? = c_tier)");
-  const auto error = [&](const std::string& text) -> std::string {
+  const auto message_of = [&](const std::string& text) -> std::string {
     try {
       Expression::parse(text, all);
-    } catch (const ExpressionError& error) {
-      return error.message();
+    } catch (const ExpressionError& wrong) {
+      return wrong.message();
     }
     return "no error";
   };
-  EXPECT_EQ(error("my_offset > 1 m"),
+  EXPECT_EQ(message_of("my_offset > 1 m"),
             "unknown name \"my_offset\"; did you mean \"my offset\"?\n    my_offset > 1 m\n    ^");
-  EXPECT_EQ(error("\"my offset\" = \"wide\""),
+  EXPECT_EQ(message_of("\"my offset\" = \"wide\""),
             "my offset is a length, \"wide\" is text; compare things of one kind\n"
             "    \"my offset\" = \"wide\"\n                  ^");
 }

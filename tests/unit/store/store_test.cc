@@ -14,6 +14,7 @@ namespace faultsweep {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 TEST_F(StoreTest, KeepsTheThreeCopiesOfTheSpec) {
