@@ -208,7 +208,7 @@ TEST(Expansion, ExpressionsSeeValuesWithinReplacedObjects) {
       "strong": {"/friction": {"friction_angle": "28 deg", "cohesion": "0 MPa"}}}},
       "offset": ["0 m", "100 m"]})";
   const auto derived = expand_grid(
-      strengths, R"("derived": {"ratio_along": "0.5 + friction_angle / (100 deg)"}, )");
+      strengths, "\"derived\": {\"ratio_along\": \"0.5 + friction_angle / (100 deg)\"}, ");
   const auto ratio_along = [&](int number) {
     return scene_of(derived, derived.cases[number])["initial_state"]["ratio_along"].get<double>();
   };
