@@ -6,6 +6,7 @@
 
 #include "simulator/common/ranges.h"
 #include "simulator/documents/canonical_text.h"
+#include "simulator/plan/body_mesh.h"
 #include "simulator/plan/plan.h"
 #include "simulator/scene/field_depths.h"
 #include "simulator/scene/scene.h"
@@ -112,9 +113,18 @@ void add_box(const BoxMeshSpec& box, ObjectText& family) {
 }
 
 void add_mesh(const Scene& scene, ObjectText& family) {
+  // Materials by number: their list has no names, which alone would say nothing.
+  const auto append_volume = [&](std::string& to, const MeshVolume& volume) {
+    to += '[';
+    append(to, material_index(scene, volume.material));
+    to += ',';
+    append(to, volume.compartment);
+    to += ']';
+  };
   family.add("kind", "mesh");
   family.add(kMeshInText, scene.box.mesh->content->fingerprint);
-  family.add("volumes", lists(scene.box.mesh->volumes));
+  family.add("volumes",
+             [&](std::string& to) { append_list(to, scene.box.mesh->volumes, append_volume); });
   family.add("faults", mapped(scene.faults, &Fault::name));
   family.add("boundary", lists(scene.box.boundary));
   family.add("surfaces", mapped(scene.box.boundary, &BoundaryCondition::surfaces));

@@ -255,14 +255,14 @@ struct MeshVolume {
 };
 void for_each_key(Of<MeshVolume> auto& v, auto&& visit) {
   visit({"name"}, v.name);
-  visit({"material", kRequired | kFamily}, v.material);
-  visit({"compartment", kFamily}, v.compartment);
+  visit({"material", kRequired}, v.material);
+  visit({"compartment"}, v.compartment);
 }
 
 /// Under which identities and families keep the bytes of a mesh: another name when what is computed
 /// on meshes alone changes, so that grids keep theirs (kNumericsVersion is for both). 2: unknowns
-/// ordered by corners. 3: profiles of faults that bend.
-inline constexpr const char* kMeshInText = "file, numerics 3";
+/// ordered by corners. 3: profiles of faults that bend. 4: families have rock by number.
+inline constexpr const char* kMeshInText = "file, numerics 4";
 
 /// A mesh in place of the grid of a box: from a file, or built of horizons.
 struct BodyMesh {
