@@ -157,11 +157,13 @@ bool read_sections(const Touched& touched, unsigned sections, Relations relation
     read_materials(reader, scene);
   }
   if ((sections & kGeometry) != 0) {
-    const GeometryKind before = scene.geometry_kind;
+    const GeometryKind kind = scene.geometry_kind;
+    const std::vector<std::string> regions = region_names(scene);
     scene.field = {};
     scene.box = {};
     read_geometry(reader, scene);
-    if (scene.geometry_kind != before) return false;
+    // Loads are held by the numbers of regions.
+    if (scene.geometry_kind != kind || region_names(scene) != regions) return false;
   }
   if ((sections & kInitialState) != 0) {
     scene.initial = {};

@@ -103,6 +103,26 @@ TEST_P(ChangedSceneTest, TheInitialPressureMovesHistoriesOfAbsolutePressure) {
   change({{"/geometry/blocks/1/offset", "60 m"}});
 }
 
+/// Pressures are given by the names of regions, and held by their numbers.
+TEST_P(ChangedSceneTest, RegionsOfOtherNamesHaveTheirPressuresAgain) {
+  base_.value["stages"][0]["pressure_change"] = {{"west", "-100 bar"}, {"east", "-200 bar"}};
+  changed_.document = base_;
+  const std::string west = "/geometry/blocks/0/name", east = "/geometry/blocks/1/name";
+  change({});
+  change({{west, "east"}, {east, "west"}});
+  change({{west, "west"}, {east, "east"}});
+  change({{west, "east"}, {east, "west"}, {"/friction/friction_angle", "27 deg"}});
+}
+
+TEST_P(ChangedSceneTest, MoreRegionsHavePressuresToo) {
+  nlohmann::json blocks = base_.value["geometry"]["blocks"], faults = base_.value["faults"];
+  blocks.push_back({{"name", "far east"}, {"from", "2000 m"}, {"to", "4000 m"}});
+  faults.push_back({{"name", "F4"}});
+  change({});
+  change({{"/geometry/blocks", blocks}, {"/faults", faults}});
+  change({});
+}
+
 TEST_P(ChangedSceneTest, ABoxHasItsPatchesAgain) {
   base_ = parse_json(starter_scene("box"), "box");
   changed_.document = base_;
