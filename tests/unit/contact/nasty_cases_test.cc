@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "simulator/common/errors.h"
+#include "simulator/contact/step_cutter.h"
 #include "tests/unit/contact/contact_fixture.h"
 #include "tests/unit/contact/depleted_fault.h"
 
@@ -277,6 +278,26 @@ TEST(NastyContact, SolvesTheTinyProblemsOfContactLibraries) {
   ASSERT_EQ(solver.solve_step(Eigen::VectorXd::Zero(9), load, state).outcome, Outcome::converged);
   EXPECT_NEAR(state.jump.norm(), 5.30402049429, 1e-9);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(state.traction[3 * k], -1, 1e-12);
+}
+
+/// Parts of a step in which one of the smallest is hard: whatever is larger and holds it fails.
+constexpr int n_parts(int most_cuts, int hard) {
+  int n = 0;
+  const auto advance = [&](int from, int width) {
+    if (width > 1 && from <= hard && hard < from + width) return false;
+    ++n;
+    return true;
+  };
+  return walk_in_parts(most_cuts, advance, [](int) { return false; }) ? n : -1;
+}
+
+/// 2^30 of the smallest parts are a step at the least onset_tolerance. By the compiler, to whom an
+/// integer that overflows is an error.
+TEST(NastyContact, TheFinestPartsOfAStepDoNotOverflow) {
+  static_assert(n_parts(30, -1) == 2);
+  static_assert(n_parts(30, 0) == 31);
+  static_assert(n_parts(30, (1 << 30) - 1) == 31);
+  static_assert(n_parts(3, 0) == 4 && n_parts(3, 5) == 4 && n_parts(0, 0) == 1);
 }
 
 }  // namespace
