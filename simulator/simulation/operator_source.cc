@@ -81,8 +81,9 @@ OperatorSource::Made OperatorSource::prepare(const LoadedScene& loaded, const Ca
   if (on_surface) {
     Made made = from_surface(loaded, cache, context);
     if (keep_bulk) {  // of the exact bulk, moved by the loads and jumps of the case
-      made.prepared.bulk =
-          prepare_operator(without_surface(scene), loaded.plan, cache, true, context).bulk;
+      const Scene exact = without_surface(scene);
+      // Its own plan: by the scene's it would be kept under the name of the surface.
+      made.prepared.bulk = prepare_operator(exact, exact_plan(exact), cache, true, context).bulk;
     }
     if (scene.has_field()) add_fields(loaded, cache, context, made);
     return made;

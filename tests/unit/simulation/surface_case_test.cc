@@ -189,6 +189,30 @@ TEST(SurfaceCase, IsReadFromTheCacheAndMadeAgainWhereItIsDamaged) {
   EXPECT_TRUE(std::filesystem::is_regular_file(file));
 }
 
+/// The exact operator whose factors are wanted beside a surface is kept under a name of its own.
+TEST(SurfaceCase, KeepsItsFileWhereFactorsAreWanted) {
+  const char* const over =
+      R"({"over": [{"parameter": "salt_stiffness", "from": "30 GPa", "to": "60 GPa"}],
+          "tolerance": 1e-2})";
+  const Changes sample = {{"salt_stiffness", "33 GPa"}};
+  const Cache cache;
+  const CaseResult built = on_surface(over, cache.policy()).run(sample);
+  Simulation displaced = on_surface(over, cache.policy());
+  displaced.change(sample);
+  displaced.prepare({}, true);
+  ASSERT_TRUE(Inside::prepared(displaced).bulk);
+  Simulation reader = on_surface(over, cache.policy());
+  const CaseResult read = reader.run(sample);
+  EXPECT_TRUE(Inside::prepared(reader).from_cache);
+  EXPECT_EQ(Inside::prepared(reader).remark, "");
+  EXPECT_EQ(bits(read), bits(built));
+  Simulation exact;
+  exact.keep_operators(cache.policy());
+  Inside::hold(exact, field(sample));
+  exact.prepare();
+  EXPECT_TRUE(Inside::prepared(exact).from_cache);
+}
+
 TEST(RequireDefinite, LooksAtTheJumpsListedAndNoOthers) {
   Eigen::MatrixXd h(3, 3);
   h << 2, 0, 1, 0, 2, 3, 1, 3, 2;
