@@ -9,16 +9,15 @@
 namespace faultsim {
 namespace {
 
-/// What blocks beside the fault have of their own, by its rule; 0 without such.
-double own_pressure(const Scene& scene, std::size_t fault, double depth) {
+/// What blocks beside the fault have of their own, by its rule, on one side of a depth; 0 without
+/// such.
+double own_pressure(const Scene& scene, std::size_t fault, double depth, DepthSide side) {
   if (scene.geometry_kind != GeometryKind::field) return 0;
   const std::vector<Block>& blocks = scene.field.blocks;
   const auto excess = [&](std::size_t block) {
     if (block >= blocks.size()) return 0.0;
     const DepthInterval reservoir = reservoir_range(scene.field, blocks[block]);
-    return reservoir.holds(depth, DepthSide::below) || reservoir.holds(depth, DepthSide::above)
-               ? own_pressure_excess(scene, block, -depth)
-               : 0.0;
+    return reservoir.holds(depth, side) ? own_pressure_excess(scene, block, -depth, side) : 0.0;
   };
   const double west = fault > 0 ? excess(fault - 1) : 0.0;
   return pressure_by_rule(scene.faults[fault].pressure, west, excess(fault));
@@ -39,7 +38,8 @@ std::array<double, 3> fault_normal(const Scene& scene, std::size_t fault) {
 InitialOnFault initial_on_fault(const Scene& scene, std::size_t fault, double depth) {
   const std::array<double, 3> normal = fault_normal(scene, fault);
   StressAtDepth at = initial_state(scene, -depth);
-  at.pressure += own_pressure(scene, fault, depth);
+  at.pressure += 0.5 * (own_pressure(scene, fault, depth, DepthSide::above) +
+                        own_pressure(scene, fault, depth, DepthSide::below));
   std::array<double, 3> traction = {0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j) traction[i] += at.sigma[3 * i + j] * normal[j];

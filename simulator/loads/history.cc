@@ -29,6 +29,15 @@ double mean_by_rule(const FaultPressure& law, const OperatorNode& node,
   return mean;
 }
 
+/// e of every block at a height, (10a). At an edge it is that within the block: the weights of
+/// pairs leave out already what of a node lies beside it.
+std::vector<double> own_excess_within(const Scene& scene, double z) {
+  std::vector<double> excess;
+  for (std::size_t r = 0; r < scene.pressure.size(); ++r)
+    excess.push_back(own_pressure_excess(scene, r, z, depths_of_region(scene, r).inner_side(-z)));
+  return excess;
+}
+
 bool in_window(const FaultPressure& law, const OperatorNode& node, const PressurePair& pair) {
   if (!law.depth_window) {
     return pair.minus_fraction > 0 || pair.plus_fraction > 0;
@@ -142,15 +151,13 @@ Eigen::VectorXd initial_pressure_excess(const Scene& scene, const FaultGeometry&
   if (std::ranges::none_of(blocks,
                            [](const Block& block) { return block.overpressure.has_value(); }))
     return excess;
-  std::vector<double> per_region(scene.pressure.size());
   for (std::size_t f = 0; f < geometry.faults.size(); ++f) {
     const FaultPressure& law = scene.faults[f].pressure;
     const OperatorFault& fault = geometry.faults[f];
     for (int k = fault.first_node; k < fault.first_node + fault.n_nodes; ++k) {
       const OperatorNode& node = geometry.nodes[k];
-      for (std::size_t r = 0; r < per_region.size(); ++r)
-        per_region[r] = own_pressure_excess(scene, r, node.position.z());
-      excess[k] = mean_by_rule(law, node, region_of_load, per_region);
+      excess[k] =
+          mean_by_rule(law, node, region_of_load, own_excess_within(scene, node.position.z()));
     }
   }
   return excess;

@@ -10,11 +10,25 @@
 #include "simulator/scene/scene.h"
 
 namespace faultsim {
+namespace {
+
+/// Lines of a mesh that are closer are one, and it has the depth of either.
+bool is_same_depth(double a, double b) {
+  constexpr double kSameLine = 1e-6;  // m
+  return std::abs(a - b) <= kSameLine;
+}
+
+}  // namespace
 
 bool DepthInterval::holds(double depth, DepthSide side) const {
   const bool inside = depth > top && depth < bottom;
   return inside || (depth == top && side == DepthSide::below) ||
          (depth == bottom && side == DepthSide::above);
+}
+
+DepthSide DepthInterval::inner_side(double depth) const {
+  if (is_same_depth(depth, top)) return DepthSide::below;
+  return is_same_depth(depth, bottom) ? DepthSide::above : DepthSide::mean;
 }
 
 void DepthInterval::unite(const DepthInterval& other) {

@@ -22,6 +22,8 @@ enum class DepthSide {
 struct DepthInterval {
   double top = 0, bottom = 0;  ///< m, depths.
   bool holds(double depth, DepthSide side) const;
+  /// The limit from within where a depth is an edge of this, to what meshes take for one line.
+  DepthSide inner_side(double depth) const;
   /// Grows to hold another one.
   void unite(const DepthInterval& other);
 };

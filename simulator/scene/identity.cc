@@ -10,6 +10,7 @@
 #include "simulator/common/fingerprint.h"
 #include "simulator/common/words.h"
 #include "simulator/documents/canonical_text.h"
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/identity.h"
 #include "simulator/scene/scene.h"
 
@@ -131,6 +132,21 @@ std::string creep(const Scene& scene) {
   return text;
 }
 
+/// Where a block's own overpressure and the column's have an edge in common, faults had too much of
+/// the column's there once.
+std::string block_edge(const Scene& scene) {
+  const bool is_column = scene.initial.kind == InitialStressKind::column;
+  if (scene.geometry_kind != GeometryKind::field || !is_column || scene.initial.overpressure == 0)
+    return "";
+  const DepthInterval column = reservoir_range(scene.field);
+  const auto shares_edge = [&](const Block& block) {
+    const DepthInterval reservoir = reservoir_range(scene.field, block);
+    return block.overpressure && (reservoir.inner_side(column.top) != DepthSide::mean ||
+                                  reservoir.inner_side(column.bottom) != DepthSide::mean);
+  };
+  return std::ranges::any_of(scene.field.blocks, shares_edge) ? "2" : "";
+}
+
 /// The same of flow results and temperatures: members of the scene, each with a comma before it.
 std::string fields(const Scene& scene) {
   std::string text;
@@ -152,7 +168,8 @@ std::string identity_under(int numerics_version, const std::string& canonical) {
 }  // namespace
 
 std::string CanonicalParts::text() const {
-  const std::string optional = creep.empty() ? "" : "\"creep\":" + creep + ",";
+  std::string optional = block_edge.empty() ? "" : "\"block_edge\":" + block_edge + ",";
+  if (!creep.empty()) optional += "\"creep\":" + creep + ",";
   return concat("{", optional, "\"faults\":", faults, ",\"format\":1,\"geometry\":", geometry,
                 ",\"initial_state\":", initial_state, ",\"materials\":", materials,
                 ",\"mesh\":", mesh, ",\"numerics\":", numerics, ",\"pressure\":", pressure, fields,
@@ -168,6 +185,7 @@ void write_parts(const Scene& scene, unsigned sections, CanonicalParts& parts) {
   if ((sections & (kGeometry | kMaterials)) != 0) parts.materials = materials(scene);
   // Whether something creeps may depend on temperatures.
   if ((sections & (kGeometry | kMaterials | kLoading)) != 0) parts.creep = creep(scene);
+  if ((sections & (kGeometry | kInitialState)) != 0) parts.block_edge = block_edge(scene);
   if ((sections & kInitialState) != 0) parts.initial_state = text_of(scene.initial);
   if ((sections & kLoading) != 0) {
     parts.pressure = text_of(scene.pressure);

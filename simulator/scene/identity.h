@@ -13,8 +13,9 @@ std::string canonical_scene(const Scene& scene);
 /// canonical_scene() in the parts that it is made of: the members of one JSON object.
 struct CanonicalParts {
   std::string faults, geometry, initial_state, materials, mesh, numerics, pressure, stages;
-  std::string creep;   ///< may be empty, as may be
-  std::string fields;  ///< of flow simulators, and temperatures.
+  std::string creep;       ///< may be empty, as may be
+  std::string block_edge;  ///< where a block's own overpressure jumps, and
+  std::string fields;      ///< of flow simulators, and temperatures.
   std::string text() const;
 };
 CanonicalParts canonical_parts(const Scene& scene);

@@ -50,6 +50,19 @@ TEST(InitialOnFault, AFaultTakesWhatABlockHasOfItsOwnByItsRule) {
   EXPECT_NEAR(pressure("max", 2300), 9.81e3 * 2300, 1e-3) << "below the reservoir";
 }
 
+/// Half of a point there lies beside the block, which differs from the column by nothing.
+TEST(InitialOnFault, AnOverpressureLikeTheColumnsChangesNothingAtEdges) {
+  for (const char* rule : {"mean", "max"}) {
+    const Scene column = varied(rotliegend(), {{"/fault_pressure/rule", rule}});
+    const Scene own = varied(rotliegend(), {{"/geometry/blocks/1/overpressure", "25 bar"},
+                                            {"/fault_pressure/rule", rule}});
+    for (const double depth : {2000.0, 2100.0, 2200.0})
+      EXPECT_NEAR(initial_on_fault(own, 1, depth).pressure,
+                  initial_on_fault(column, 1, depth).pressure, 1e-3)
+          << rule << " at " << depth;
+  }
+}
+
 TEST(InitialOnFault, ABiotCoefficientOfTheFaultWeighsThePressure) {
   const Scene scene = varied(rotliegend(), {{"/fault_pressure/fault_biot", "0.8"}});
   EXPECT_NEAR(initial_on_fault(scene, 1, 2100).normal,

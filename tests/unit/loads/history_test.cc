@@ -94,6 +94,17 @@ class FaultPressureRules : public testing::Test {
     scene_.faults[0].pressure.rule = rule;
     return fault_pressure_change(scene_, geometry_, {0, 1}, time, {-10e6, -4e6})[0];
   }
+  /// A reservoir from 2000 to 2200 m, in blocks without offset.
+  void give_column() {
+    scene_.geometry_kind = GeometryKind::field;
+    scene_.materials[0].name = "rock";
+    scene_.materials[0].density = 2400;
+    scene_.field.depth = 5000;
+    scene_.field.layers = {
+        {"over", "rock", 0}, {"reservoir", "rock", 2000}, {"under", "rock", 2200}};
+    scene_.field.reservoir_layer = "reservoir";
+    scene_.field.blocks = {{"west", -1000, 0}, {"east", 0, 1000}};
+  }
   Scene scene_;
   FaultGeometry geometry_;
 };
@@ -122,13 +133,7 @@ TEST_F(FaultPressureRules, PrescribedRampsOverTheFirstStageAndRespectsItsWindow)
 
 /// West has 60 bar of its own at 2100 m, where the column has 25 bar: 35 bar more.
 TEST_F(FaultPressureRules, CombineWhatBlocksHaveBeyondTheColumnAtTheStart) {
-  scene_.geometry_kind = GeometryKind::field;
-  scene_.materials[0].name = "rock";
-  scene_.materials[0].density = 2400;
-  scene_.field.depth = 5000;
-  scene_.field.layers = {{"over", "rock", 0}, {"reservoir", "rock", 2000}, {"under", "rock", 2200}};
-  scene_.field.reservoir_layer = "reservoir";
-  scene_.field.blocks = {{"west", -1000, 0}, {"east", 0, 1000}};
+  give_column();
   scene_.initial.overpressure = 25e5;
   const auto excess = [&](FaultPressureRule rule) {
     scene_.faults[0].pressure.rule = rule;
@@ -144,6 +149,26 @@ TEST_F(FaultPressureRules, CombineWhatBlocksHaveBeyondTheColumnAtTheStart) {
   EXPECT_EQ(excess(FaultPressureRule::prescribed), 0);
   geometry_.nodes[0].position.z() = -2300;  // of a block at an offset: the column has none here
   EXPECT_DOUBLE_EQ(excess(FaultPressureRule::minus), 60e5);
+}
+
+/// At top and base of the layer half of a node's area lies beside west, in which the column has all
+/// of its 25 bar. An offset may be there by rounding alone.
+TEST_F(FaultPressureRules, TakeWhatBlocksHaveFromWithinThemAtTheirEdges) {
+  give_column();
+  scene_.initial.overpressure = 25e5;
+  scene_.faults[0].pressure.rule = FaultPressureRule::minus;
+  geometry_.nodes[0].pressure = {{0, 1.0, 1, 1.0, 0.5}, {-1, 0.0, -1, 0.0, 0.5}};
+  for (const double own : {25e5, 60e5}) {
+    scene_.field.blocks[0].overpressure = own;
+    for (const double offset : {0.0, 1e-12, -1e-12}) {
+      scene_.field.blocks[0].offset = offset;
+      for (const double depth : {2000.0, 2200.0}) {
+        geometry_.nodes[0].position.z() = -depth;
+        EXPECT_DOUBLE_EQ(initial_pressure_excess(scene_, geometry_, {0, 1})[0], 0.5 * (own - 25e5))
+            << own << " at " << depth;
+      }
+    }
+  }
 }
 
 }  // namespace

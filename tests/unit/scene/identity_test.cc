@@ -189,6 +189,35 @@ TEST(CaseIdentity, IgnoresTheOrderOfKeys) {
   }
 }
 
+/// Results in which a block's own overpressure met an edge of the column's were other ones once:
+/// only they are calculated again.
+TEST(CaseIdentity, SaysWhereABlocksOwnOverpressureMeetsAnEdgeOfTheColumns) {
+  const auto text = [](const Settings& settings) {
+    return canonical_scene(varied(rotliegend(), settings));
+  };
+  const std::pair<std::string, std::string> own = {"/geometry/blocks/1/overpressure", "65 bar"};
+  const auto says = [](bool is_there) {
+    const testing::Matcher<std::string> said = testing::StartsWith(R"({"block_edge":2,)");
+    return is_there ? said : testing::Not(testing::HasSubstr("block_edge"));
+  };
+  EXPECT_THAT(text({own}), says(true));
+  EXPECT_THAT(text({own, {"/geometry/blocks/1/offset", "200 m"}}), says(true)) << "top at the base";
+  EXPECT_THAT(text({}), says(false));
+  EXPECT_THAT(text({own, {"/geometry/blocks/1/offset", "50 m"}}), says(false));
+  EXPECT_THAT(text({own, {"/initial_state/overpressure", "0 bar"}}), says(false));
+}
+
+TEST(CaseIdentity, FollowsABlockToAnEdgeOfTheColumn) {
+  const auto with_offset = [](const char* offset) {
+    return varied(rotliegend(), {{"/geometry/blocks/1/overpressure", "65 bar"},
+                                 {"/geometry/blocks/1/offset", offset}});
+  };
+  const Scene at_edge = with_offset("0 m");
+  CanonicalParts parts = canonical_parts(with_offset("50 m"));
+  write_parts(at_edge, kGeometry, parts);
+  EXPECT_EQ(case_identity(parts), case_identity(at_edge));
+}
+
 /// Whatever a scene can ask to be written, every key of the section.
 TEST(CaseIdentity, IgnoresEverythingInTheOutputSection) {
   const std::map<std::string, std::string> outputs = {
