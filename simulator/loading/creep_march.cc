@@ -270,10 +270,12 @@ CreepMarch::Path CreepMarch::controlled(const Point& from, double to, Path coars
   }
   if (!first.good()) return first;
   Path path = joined(std::move(first), std::move(second));
-  if (std::isfinite(difference)) {  // else a jump was in the way, and there is nothing to compare
+  if (std::isfinite(difference))
     path.creep.time_error = std::max(path.creep.time_error, difference);
-    path.creep.time_resolved = path.creep.time_resolved && difference <= numerics_.creep_tolerance;
-  }
+  // A jump in the way leaves nothing to compare; without one the whole step was too long.
+  const bool is_shown = difference <= numerics_.creep_tolerance ||
+                        (!std::isfinite(difference) && !path.contact.jumps.empty());
+  path.creep.time_resolved = path.creep.time_resolved && is_shown;
   return path;
 }
 

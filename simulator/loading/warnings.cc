@@ -164,8 +164,9 @@ class Warnings {
                             " load steps: halving them changes fault tractions by up to ",
                             brief(worst / 1e6), " MPa, ",
                             brief(scene_.numerics.creep_tolerance / 1e6),
-                            " MPa are allowed, or a fault jumps while the salt creeps; raise "
-                            "/numerics/creep_refinements or use shorter load steps"));
+                            " MPa are allowed, or a fault jumps while the salt creeps, or only the "
+                            "shortest steps have an answer; raise /numerics/creep_refinements or "
+                            "use shorter load steps"));
   }
 
   void penetration() {

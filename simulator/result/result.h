@@ -83,9 +83,11 @@ struct FaultCreep {
 
 /// How a step with creeping salt was walked, and what the salt did to the faults.
 struct StepCreep {
-  int time_steps = 0;         ///< that the step was divided into.
-  double time_error = 0;      ///< Pa, largest change of fault traction when a time step was halved.
-  bool time_resolved = true;  ///< within /numerics/creep_tolerance wherever it was measured.
+  int time_steps = 0;     ///< that the step was divided into.
+  double time_error = 0;  ///< Pa, largest change of fault traction when a time step was halved.
+  /// Within /numerics/creep_tolerance wherever it was measured; false also where only the shortest
+  /// steps have an answer, without a jump.
+  bool time_resolved = true;
   std::vector<FaultCreep> faults;
 };
 

@@ -278,6 +278,27 @@ TEST(CreepMarch, ShortensStepsThatAnEventMakesImpossible) {
   EXPECT_LE(controlled.creep(4).time_error, 2e4);
 }
 
+/// Friction falls by 9.95 MPa/m: more slowly than the slider unloads in a step of 1/16 year, faster
+/// than in one of 1/8, 10 MPa/m (1 − e^{−x})/x with x = Δt/τ. So 1/8 year cannot be taken whole,
+/// its halves can, without an event: with nothing to compare they are not known to be short enough.
+TEST(CreepMarch, IsNotResolvedWhereOnlyTheShortestStepsHaveAnAnswer) {
+  const auto refined = [](const char* refinements) {
+    return Case(slider(
+        {{"/friction/slip_weakening_distance", "0.402 m"},
+         {"/numerics", concat(R"({"creep": "on", "creep_refinements": )", refinements, "}")}}));
+  };
+  const Case coarse = refined("4"), fine = refined("5");
+  for (const Case* run : {&coarse, &fine}) {
+    ASSERT_TRUE(in_equilibrium(run->result.outcome)) << run->result.reason;
+    EXPECT_TRUE(run->result.events.empty());
+    EXPECT_LE(run->creep(4).time_error, 1) << "Pa: of what could be compared";
+  }
+  EXPECT_EQ(coarse.creep(4).time_steps, 8);
+  EXPECT_FALSE(coarse.creep(4).time_resolved);
+  EXPECT_EQ(fine.creep(4).time_steps, 10);
+  EXPECT_TRUE(fine.creep(4).time_resolved);
+}
+
 /// A column that is pulled loses lateral compression as it creeps: σ_x from −9.7 to −4 MPa under
 /// 6 MPa of shear. It jumps under constant load, with whatever the shortest step has relaxed: the
 /// ladder is too coarse for it, and the step says so.
