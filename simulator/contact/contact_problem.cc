@@ -60,7 +60,11 @@ bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int 
 }
 
 double NodeViolation::worst() const {
-  return std::max({tension, penetration, over_limit, below_limit, misaligned, open_traction});
+  double worst = 0;
+  for (const double one :
+       {tension, penetration, over_limit, below_limit, misaligned, open_traction})
+    worst = worse(worst, one);
+  return worst;
 }
 
 NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step, int k) {
@@ -72,9 +76,9 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
   const double gap = start.jump[node.dof[0]] + sub_step.increment[node.dof[0]];
   const double drag = node.law->drag(sub_step.per_second);
   NodeViolation violation;
-  if (gap < 0) violation.penetration = -gap * problem.stiffness(node, 0);
+  if (!(gap >= 0)) violation.penetration = -gap * problem.stiffness(node, 0);
   if (gap > 0 || sub_step.state[k] == FaultState::open) {
-    violation.open_traction = std::max(std::abs(normal), (shear - drag * slip).norm());
+    violation.open_traction = worse(std::abs(normal), (shear - drag * slip).norm());
     return violation;
   }
   violation.tension = std::max(normal, 0.0);
@@ -83,10 +87,10 @@ NodeViolation check_node(const ContactProblem& problem, const SubStep& sub_step,
   const double slip_norm = slip.norm();
   const double limit = strength_after(node, sub_step, k).value;
   violation.over_limit = std::max(shear_norm - limit, 0.0);
-  if (slip_norm > 0) {
+  if (slip_norm != 0) {
     violation.below_limit = std::max(limit - shear_norm, 0.0);
     const double across = (shear_norm * slip - shear * slip_norm).norm();
-    if (across > 0) {
+    if (across != 0) {
       // A slip so small that it hardly matters has a direction of round-off; it counts in
       // proportion.
       double stiffness = problem.stiffness(node, 1);

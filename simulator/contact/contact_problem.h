@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -88,6 +89,9 @@ inline Strength strength_after(const ContactNode& node, const SubStep& sub_step,
 /// Whether a node slips in the sub-step that still has cohesion and loses it by slip.
 bool loses_cohesion(const ContactProblem& problem, const SubStep& sub_step, int k);
 
+/// The larger; NaN where either is, which std::max may hide.
+inline double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
 /// Why a node is not in equilibrium, as the report counts it.
 struct NodeViolation {
   double tension = 0;      ///< t'_N over closed, Pa.
@@ -96,7 +100,7 @@ struct NodeViolation {
   double below_limit = 0;  ///< τ_L − |t'_T| where it slips, Pa.
   double misaligned = 0;   ///< ||t'_T| Δg_T − t'_T |Δg_T|| / |Δg_T|, Pa.
   double open_traction = 0;
-  double worst() const;
+  double worst() const;  ///< NaN where any is.
 };
 /// Checks (3)–(5) at one node, with nothing from the solver's residual but with its friction law:
 /// by this a step is accepted. What judges from outside is judge.h.

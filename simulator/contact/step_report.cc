@@ -1,5 +1,6 @@
 #include "simulator/contact/step_report.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace faultsim {
@@ -40,9 +41,10 @@ std::string failure_text(const ContactProblem& problem, const SubStep& sub_step,
     over += at.over_limit > tolerance;
     against += at.below_limit > tolerance || at.misaligned > tolerance;
     loaded += at.open_traction > tolerance;
-    if (worst_node < 0 || at.worst() / tolerance > worst) {
+    const double relative = at.worst() / tolerance;
+    if (worst_node < 0 || (!std::isnan(worst) && !(relative <= worst))) {
       worst_node = k;
-      worst = at.worst() / tolerance;
+      worst = relative;
     }
   }
   std::string reason =

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "simulator/common/errors.h"
 #include "tests/unit/contact/contact_fixture.h"
@@ -41,6 +42,33 @@ TEST(ContactNewton, TakesNothingThatItsOwnRoundingHasPutOutOfBalance) {
   EXPECT_EQ(step.increment[1], 0);
   EXPECT_NEAR(step.increment[3], 4.004 / 4, 1e-12);
   for (const int k : {0, 1}) EXPECT_LT(check_node(problem, step, k).worst(), step.tolerance[k]);
+}
+
+/// What is no number is no equilibrium, wherever it stands.
+TEST(NodeViolation, HidesNoNan) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  for (double NodeViolation::*one :
+       {&NodeViolation::tension, &NodeViolation::penetration, &NodeViolation::over_limit,
+        &NodeViolation::below_limit, &NodeViolation::misaligned, &NodeViolation::open_traction}) {
+    NodeViolation violation{1, 1, 1, 1, 1, 1};
+    violation.*one = 2;
+    EXPECT_EQ(violation.worst(), 2);
+    violation.*one = kNan;
+    EXPECT_TRUE(std::isnan(violation.worst()));
+  }
+  TwoNodes given;
+  const ContactProblem problem(given.op, given.laws);
+  for (const FaultState state : {FaultState::slip, FaultState::open}) {
+    for (const auto member : {&SubStep::traction, &SubStep::increment}) {
+      for (const int dof : {2, 3}) {
+        SubStep step = given.step;
+        step.state[1] = state;
+        (step.*member)[dof] = kNan;
+        EXPECT_TRUE(std::isnan(check_node(problem, step, 1).worst())) << dof;
+        EXPECT_FALSE(std::isnan(check_node(problem, step, 0).worst()));
+      }
+    }
+  }
 }
 
 TEST(ContactNewton, StopsWhenItIsAsked) {
