@@ -51,11 +51,18 @@ void AdaptiveInterpolant::add(const SparseGrid::Index& index) {
   is_old_.push_back(false);
 }
 
-void AdaptiveInterpolant::expand(std::size_t node) {
+/// A node is not old as long as there is no room for all of its successors: it gets the others when
+/// there is.
+void AdaptiveInterpolant::expand(std::size_t node, int most) {
   is_old_[node] = true;
   const SparseGrid::Index index = grid_.indices()[node];
   for (const SparseGrid::Index& next : grid_.successors(index)) {
-    if (may_add(next)) add(next);
+    if (!may_add(next)) continue;
+    if (grid_.n_nodes() >= most) {
+      is_old_[node] = false;
+      return;
+    }
+    add(next);
   }
 }
 
@@ -69,7 +76,7 @@ double AdaptiveInterpolant::grow(double tolerance, int most) {
       worst = k;
     }
     if (largest <= tolerance || grid_.n_nodes() >= most) return largest;
-    expand(worst);
+    expand(worst, most);
   }
 }
 

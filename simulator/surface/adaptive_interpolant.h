@@ -21,15 +21,16 @@ class AdaptiveInterpolant {
   /// Starts with the centre, whose value is not asked for.
   AdaptiveInterpolant(int n_axes, Surplus surplus);
 
-  /// Grows until no surplus of a node without successors is above `tolerance`, or there are `most`
-  /// nodes. @returns the largest one left (infinite where only the centre is there).
+  /// Grows until no surplus of a node without all of its successors is above `tolerance`, or there
+  /// are `most` nodes, never more. @returns the largest one left (infinite where the centre lacks
+  /// successors).
   double grow(double tolerance, int most);
 
   const SparseGrid& grid() const { return grid_; }
 
  private:
   void add(const SparseGrid::Index& index);
-  void expand(std::size_t node);
+  void expand(std::size_t node, int most);
   bool may_add(const SparseGrid::Index& index) const;
 
   Surplus look_;

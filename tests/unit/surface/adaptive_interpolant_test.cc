@@ -66,11 +66,26 @@ TEST(AdaptiveInterpolant, AsksForEachNodeOnceAndGoesOnFromWhereItStopped) {
 }
 
 TEST(AdaptiveInterpolant, EndsAtTheMostNodesAndSaysWhatIsLeft) {
+  for (int most = 1; most <= 12; ++most) {
+    Values values;
+    AdaptiveInterpolant f = interpolant(values);
+    EXPECT_GT(f.grow(1e-12, most), 1e-12);
+    EXPECT_EQ(f.grid().n_nodes(), most) << "also in the middle of an expansion";
+    EXPECT_EQ(values.size(), static_cast<std::size_t>(most));
+  }
+}
+
+/// Cut after the first axis, it looks at the others as soon as there is room.
+TEST(AdaptiveInterpolant, GrowsOnFromTheMiddleOfAnExpansion) {
   Values values;
   AdaptiveInterpolant f = interpolant(values);
-  EXPECT_GT(f.grow(1e-12, 6), 1e-12);
-  EXPECT_GE(f.grid().n_nodes(), 6);
-  EXPECT_LE(f.grid().n_nodes(), 6 + 2);  // an expansion is not cut in its middle
+  EXPECT_TRUE(std::isinf(f.grow(1e-6, 2)));
+  EXPECT_LE(f.grow(1e-6, 500), 1e-6);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    EXPECT_TRUE(std::ranges::any_of(f.grid().indices(), [&](const SparseGrid::Index& index) {
+      return index[axis] > 0;
+    })) << axis;
+  }
 }
 
 }  // namespace
