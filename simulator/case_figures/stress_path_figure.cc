@@ -12,15 +12,22 @@
 namespace faultsim::case_figures {
 namespace {
 
-/// Principal effective stresses across the fault at the start, MPa, compression positive. With
-/// σ_xz = 0 in every initial state but a tensor's, these are σ'_xx and σ'_zz.
-std::optional<figure::StressPath::Circle> initial_circle(const Scene& scene, double z) {
+/// Principal stresses σ + α_f p0 across the fault at the start, effective as the fault's traction
+/// is, MPa, compression positive. With σ_xz = 0 in every initial state but a tensor's, these are
+/// those of x and z.
+std::optional<figure::StressPath::Circle> initial_circle(const Scene& scene, double fault_biot,
+                                                         double z) {
   if (scene.initial.tensor || scene.geometry_kind != GeometryKind::field) return std::nullopt;
   const StressAtDepth start = initial_state(scene, z);
-  const double across = -(start.sigma[0] + start.pressure),
-               down = -(start.sigma[8] + start.pressure);
+  const double fluid = fault_biot * start.pressure;
+  const double across = -(start.sigma[0] + fluid), down = -(start.sigma[8] + fluid);
   return figure::StressPath::Circle{std::max(across, down) / kMegapascal,
                                     std::min(across, down) / kMegapascal};
+}
+
+std::string words_of_circle(double fault_biot) {
+  return concat("; grey circle: rock at the start, fault_biot ", figure::plain_number(fault_biot),
+                "; ");
 }
 
 /// Traction at a point, step after step.
@@ -63,7 +70,8 @@ std::string draw_stress_path(Chosen chosen) {
   const FieldSource& file = *chosen.picture.fields;
   const StoredFault& fault = file.faults()[f];
   const auto k = static_cast<Eigen::Index>(most_critical(fault, file.critical_index(f, critical)));
-  const CoulombLaw& friction = chosen.scene().faults[chosen.fault].friction;
+  const Fault& of_scene = chosen.scene().faults[chosen.fault];
+  const CoulombLaw& friction = of_scene.friction;
   figure::StressPath path;
   std::map<int, std::string> stages;
   for (const StepResult& step : chosen.result().steps) stages[step.step] = step.stage;
@@ -79,10 +87,10 @@ std::string draw_stress_path(Chosen chosen) {
   }
   path.title = concat("Stress path of fault ", chosen.fault_name(), " at ",
                       plain_number(-fault.points(2, k), 4), " m depth");
-  path.circle = initial_circle(chosen.scene(), fault.points(2, k));
+  path.circle = initial_circle(chosen.scene(), of_scene.fault_biot, fault.points(2, k));
   path.remark =
       concat(add_original(chosen, fault.points.col(k), path), "where χ is largest at ",
-             moment_text(chosen), path.circle ? "; grey circle: rock before production; " : "; ",
+             moment_text(chosen), path.circle ? words_of_circle(of_scene.fault_biot) : "; ",
              subject_of(chosen.picture));
   path.cohesion = friction.cohesion / kMegapascal;
   path.friction = std::tan(friction.static_friction_angle);

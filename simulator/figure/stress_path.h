@@ -21,8 +21,8 @@ struct StressPath {
   double cohesion = 0;             ///< MPa.
   double friction = 0;             ///< tan φ_s.
   std::optional<double> weakened;  ///< tan φ_d, where friction weakens.
-  /// The circle of the rock around the point before production; principal effective stresses of
-  /// the plane across the fault, MPa, compression positive.
+  /// The circle of the rock around the point before production; principal stresses of the plane
+  /// across the fault, effective as those of the path are, MPa, compression positive.
   struct Circle {
     double largest = 0, smallest = 0;
   };

@@ -91,6 +91,22 @@ TEST_F(FieldsOfAFault, AStressPathStartsOnTheCircleOfTheInitialState) {
   EXPECT_THAT(svg, HasSubstr(">end of gas storage<"));
 }
 
+/// A traction that carries its Biot share of the pressure is on the circle of σ + α_f p0.
+TEST_F(FieldsOfAFault, AStressPathHasTheCircleOfItsFaultsBiotCoefficient) {
+  const FieldReader reader(folder_ / "faults.h5");
+  Scene scene = field_scene();
+  scene.faults[1].fault_biot = 0.6;
+  const CaseResult result = small_result();
+  const std::string svg =
+      draw_case({result, scene, &reader, {}}, {CaseChart::stress_path, "F2", {}, false});
+  const figure::ReadScale x = figure::read_scale(svg, true);
+  const auto arc = figure::elements_of(svg, "polyline", "stroke", figure::kFaint).at(0).points();
+  const StressAtDepth start = initial_state(scene, -2050);
+  EXPECT_NEAR(x.value(arc.front().x), -(start.sigma[8] + 0.6 * start.pressure) / 1e6, 0.1);
+  EXPECT_NEAR(x.value(arc.back().x), -(start.sigma[0] + 0.6 * start.pressure) / 1e6, 0.1);
+  EXPECT_THAT(svg, HasSubstr("grey circle: rock at the start, fault_biot 0.6; "));
+}
+
 /// Fields of the case before a change: of three points of F2, 10 m deeper, each with half the
 /// shear.
 struct EarlierFields : FieldSource {
