@@ -45,7 +45,7 @@ std::string measured_sentence(const std::vector<ErrorBar>& bars) {
 CellErrors cell_errors(const Store& store, const CampaignInfo& campaign,
                        const faultsim::Scene& base) {
   const std::string own = common_tier(store, campaign);
-  CellErrors errors{mesh_sentence(own, base), "", {}};
+  CellErrors errors{mesh_sentence(own, base), "", "", {}};
   std::vector<ErrorBar> rest = store.error_bars(campaign.name);  // by tier
   while (!rest.empty()) {
     const auto end = std::ranges::find_if(rest, [&](const ErrorBar& bar) {
@@ -59,6 +59,11 @@ CellErrors cell_errors(const Store& store, const CampaignInfo& campaign,
       errors.elsewhere.push_back(sentence);
     }
     rest.erase(rest.begin(), end);
+  }
+  const StatedErrors stated = stated_errors_of(store, campaign);
+  if (const auto chi = stated.find("chi_bar"); chi != stated.end()) {
+    errors.undecided = concat("A condition on χ̄ counts as undecided where χ̄ is within ",
+                              in_unit(chi->second, plain(), 2), " of the limit in it.");
   }
   return errors;
 }

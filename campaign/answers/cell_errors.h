@@ -13,6 +13,8 @@ namespace faultsweep {
 struct CellErrors {
   std::string mesh;      ///< of the base scene, and the errors that its tier names where it is one.
   std::string measured;  ///< on cases of the campaign at their tier (rms and largest); "" = never.
+  /// How near to its limit a condition on χ̄ is undecided; "" = no error of χ̄ is known.
+  std::string undecided = {};
   std::vector<std::string> elsewhere;  ///< measured on them at other tiers.
 };
 /// @param base  of the campaign.

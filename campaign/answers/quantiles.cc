@@ -184,7 +184,7 @@ Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
   }
   const Sample sample = read_sample(store, campaign, {request.where, "", ""}, std::move(columns));
   found.n_unknown = sample.n_without + sample.n_early;
-  const StatedErrors errors = stated_errors(error_bars_of(store, campaign));
+  const StatedErrors errors = stated_errors_of(store, campaign);
   for (std::size_t m = 0; m < metrics.size(); ++m) {
     const auto error = errors.find(metrics[m].metric);
     found.metrics.push_back(of_metric(metrics[m], sample.y[m], sample.y[metrics.size() + m],

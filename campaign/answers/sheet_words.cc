@@ -247,6 +247,7 @@ std::vector<std::string> model_errors(const SheetSource& source, const SheetCoun
   const CellErrors cells = cell_errors(source.store, source.campaign, source.base);
   all.push_back(cells.mesh);
   if (!cells.measured.empty()) all.push_back(cells.measured);
+  if (!cells.undecided.empty()) all.push_back(cells.undecided);
   if (!source.sampling.approximation.empty()) all.push_back(source.sampling.approximation);
   std::string left = concat(grouped(counts.n_complete), " of ", grouped(counts.n_cases),
                             " cases have a full history");

@@ -21,6 +21,8 @@ void add_cell_errors(const Store& store, const CampaignInfo& campaign, Answer& a
         "The rms errors appear as ± in the ranking. They are those of the cases that were "
         "measured, not bounds; a case closer to a threshold than the largest of them "
         "counts as undecided.");
+  } else {
+    answer.note_if(errors.undecided);
   }
   for (const std::string& sentence : errors.elsewhere) answer.note(sentence);
 }

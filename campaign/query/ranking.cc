@@ -5,9 +5,9 @@
 
 #include "campaign/common/json.h"
 #include "campaign/common/names.h"
-#include "campaign/query/selection.h"
 #include "campaign/query/table_output.h"
 #include "campaign/spec/metrics.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsweep {
 
@@ -183,6 +183,13 @@ std::vector<ErrorBar> error_bars_of(const Store& store, const CampaignInfo& camp
   const std::string tier = common_tier(store, campaign);
   std::erase_if(bars, [&](const ErrorBar& bar) { return bar.tier != tier; });
   return bars;
+}
+
+StatedErrors stated_errors_of(const Store& store, const CampaignInfo& campaign) {
+  StatedErrors errors = stated_errors(error_bars_of(store, campaign));
+  const faultsim::Tier* tier = faultsim::find_tier(common_tier(store, campaign));
+  if (tier != nullptr) errors.try_emplace("chi_bar", tier->chi_largest);
+  return errors;
 }
 
 void SlidingCounts::add(bool slides, bool resolved) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "campaign/query/place_columns.h"
+#include "campaign/query/selection.h"
 #include "campaign/render/answer.h"
 #include "campaign/store/store.h"
 
@@ -77,6 +78,10 @@ std::string common_tier(const Store& store, const CampaignInfo& campaign);
 /// What `faultsweep tradeoff` measured of the campaign's spec at the tier of its cases; nothing
 /// where its scenes have several tiers or a mesh of their own.
 std::vector<ErrorBar> error_bars_of(const Store& store, const CampaignInfo& campaign);
+/// Within which conditions on results of a campaign are undecided: the largest errors that were
+/// measured on its cases; without one of χ̄ the largest that their tier names, of its cells in plane
+/// strain.
+StatedErrors stated_errors_of(const Store& store, const CampaignInfo& campaign);
 /// What a row is about: the case or, where one is ranked, the fault.
 faultsim::StageMetrics metrics_of(const RankedCase& row);
 const faultsim::Measures& measures_of(const RankedCase& row);

@@ -27,7 +27,7 @@ SqlFragment column_of(const VerdictSql& verdict, const SqlFragment& computed) {
 VerdictColumns::VerdictColumns(const Store& store, const CampaignInfo& campaign,
                                const Selection& selection,
                                const std::vector<std::string>& conditions) {
-  const StatedErrors errors = stated_errors(error_bars_of(store, campaign));
+  const StatedErrors errors = stated_errors_of(store, campaign);
   for (const std::string& one : conditions) {
     columns_.push_back(column_of(parse_verdict(one, campaign, selection, errors),
                                  parse_condition(one, campaign, selection)));

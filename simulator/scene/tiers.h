@@ -16,6 +16,7 @@ struct Tier {
   bool half_domain;    ///< made for half of the domain, refused for all of it.
   const char* errors;  ///< measured, in words.
   double chi_rms;      ///< of these the rms error of χ̄.
+  double chi_largest;  ///< of these its largest error.
 };
 
 const std::vector<Tier>& tiers();

@@ -152,6 +152,24 @@ TEST_F(FaultSheets, LevelsCountEachCaseOnce) {
   EXPECT_EQ(n, 4) << "each with a full history at one level";
 }
 
+/// χ̄ is within 0.011 at `screening`, which the made-up cases have.
+TEST_F(FaultSheets, AValueWithinTheErrorOfItsCellsLeavesALevelOpen) {
+  f_.add(SheetFixture::quiet(0.805));
+  f_.add(SheetFixture::quiet(0.795));
+  f_.add(SheetFixture::quiet(0.815));
+  f_.submit_as("grid");
+  const FaultSheet sheet = f_.sheet();
+  const ShareCounts &green = sheet.levels[0].counts, &amber = sheet.levels[1].counts;
+  EXPECT_EQ(amber.n_yes, 1) << "0.815 is certain";
+  EXPECT_EQ(amber.n_undecided, 2);
+  EXPECT_EQ(amber.n_holds, 2) << "as computed, 0.805 too";
+  EXPECT_EQ(green.n_yes, 0);
+  EXPECT_EQ(green.n_holds, 1);
+  EXPECT_THAT(render_text(to_answer({sheet})),
+              HasSubstr("A condition on χ̄ counts as undecided where χ̄ is within 0.011 of the "
+                        "limit in it."));
+}
+
 TEST_F(FaultSheets, ConditionsOfLevelsAreOfTheSheetsFault) {
   submit();
   SheetRequest request;

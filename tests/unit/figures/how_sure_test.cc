@@ -93,6 +93,7 @@ TEST_F(HowSureTest, SaysWhereNothingWasMeasuredAndWhichCommandMeasuresIt) {
   EXPECT_THAT(page(sweep), HasSubstr(kNotMeasured));
   EXPECT_THAT(said(sweep), HasSubstr("Mesh: tier screening ("));
   EXPECT_THAT(said(sweep), Not(HasSubstr("Measured at")));
+  EXPECT_THAT(said(sweep), HasSubstr("undecided where χ̄ is within 0.011 of the limit in it."));
   EXPECT_THAT(said(sweep), Not(HasSubstr("secret")));
 }
 
