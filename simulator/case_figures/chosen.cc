@@ -87,15 +87,20 @@ std::vector<figure::Tick> date_ticks(const CasePicture& picture) {
   double last = picture.result.steps.back().time;
   if (picture.original != nullptr && !picture.original->result.steps.empty())
     last = std::max(last, picture.original->result.steps.back().time);
+  // Dates have four digits.
+  if (start + last > parse_date("9999-12-31").value()) return {};
   int step = 1;  // months
   for (const int one : {2, 3, 6, 12, 24, 60, 120, 240, 600}) {
     if (last > kMost * kMonthInSeconds * step) step = one;
   }
   std::vector<figure::Tick> ticks;
   const std::string first = date_text(start);
-  for (int month = std::stoi(first.substr(0, 4)) * kMonths / step * step;; month += step) {
+  const int before = std::stoi(first.substr(0, 4)) * kMonths / step * step;
+  for (int month = std::max(before, step);; month += step) {  // there is no year 0
     const std::string day = formatted("%04d-%02d-01", month / kMonths, month % kMonths + 1);
-    const double time = parse_date(day).value() - start;
+    const std::optional<double> date = parse_date(day);
+    if (!date) break;  // the year 10000
+    const double time = *date - start;
     if (time > last * (1 + 1e-9)) break;
     if (time < 0) continue;
     ticks.push_back(

@@ -46,6 +46,23 @@ TEST(DrawCase, HasDatesWhereTheSceneHas) {
               HasSubstr("primary production, 1995-07-02 (5 years)"));
 }
 
+/// Dates have four digits: there are none before the year 1 or after 9999, where salt still creeps.
+TEST(DrawCase, HasYearsWhereDatesEnd) {
+  Scene scene = field_scene();
+  CaseResult result = small_result();
+  constexpr double kYear = 365.25 * 86400;
+  const auto drawn = [&](const char* start, double years) {
+    scene.start_date = parse_date(start);
+    for (StepResult& step : result.steps) step.time = step.step * years * kYear / 2;
+    return draw_case({result, scene, nullptr, {}}, {CaseChart::history, {}, {}, false});
+  };
+  EXPECT_THAT(drawn("1990-01-31", 8009), HasSubstr(">date<"));
+  const std::string beyond = drawn("1990-01-31", 9000);
+  EXPECT_THAT(beyond, HasSubstr(">time, years since 1990-01-31<"));
+  EXPECT_THAT(beyond, Not(HasSubstr(">date<")));
+  EXPECT_THAT(drawn("0001-01-01", 1000), HasSubstr(">date<"));
+}
+
 /// A field that only cools has a line that says so.
 TEST(DrawCase, HasTheTemperatureOfRegionsThatCool) {
   Scene scene = field_scene();
