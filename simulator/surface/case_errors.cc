@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kLeastSlip = 1e-3;    // m, against which differences of smaller slips count
 constexpr double kSlipTolerance = 10;  // times that of χ̄
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double largest_slip(const CaseResult& result) {
   double largest = kLeastSlip;
@@ -21,7 +22,17 @@ double largest_slip(const CaseResult& result) {
 /// χ̄ is infinite on a fault that opens; two of them are alike. What is no number is like nothing.
 double difference(double a, double b) {
   const double found = a == b ? 0 : std::abs(a - b);
-  return std::isnan(found) ? std::numeric_limits<double>::infinity() : found;
+  return std::isnan(found) ? kInfinity : found;
+}
+
+/// Whether one of two histories stops where the other goes on. A step without equilibrium has no
+/// metrics.
+bool end_apart(const CaseResult& a, const CaseResult& b) {
+  const auto n_measured = [](const CaseResult& result) {
+    return std::ranges::count_if(result.steps,
+                                 [](const StepResult& step) { return !step.faults.empty(); });
+  };
+  return in_equilibrium(a.outcome) != in_equilibrium(b.outcome) || n_measured(a) != n_measured(b);
 }
 
 }  // namespace
@@ -38,6 +49,7 @@ bool CaseErrors::within(double tolerance) const {
 
 CaseErrors case_errors(const CaseResult& found, const CaseResult& exact) {
   CaseErrors errors;
+  if (end_apart(found, exact)) errors.chi_bar = kInfinity;  // of the rest nothing is known
   const double slip = largest_slip(exact);
   for (std::size_t s = 0; s < std::min(found.steps.size(), exact.steps.size()); ++s) {
     const auto &ours = found.steps[s].faults, &theirs = exact.steps[s].faults;

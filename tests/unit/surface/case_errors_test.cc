@@ -57,6 +57,26 @@ TEST(CaseErrors, CountFlagsThatBothAreSureOf) {
   EXPECT_EQ(case_errors(other, result()).flags_that_differ, 1);
 }
 
+/// What a case would have done after its end is not known to be right.
+TEST(CaseErrors, AreInfiniteWhereOneCaseGoesOn) {
+  CaseResult early = result();
+  early.steps[1].faults.clear();  // reached, not in equilibrium
+  early.outcome = Outcome::unstable;
+  EXPECT_FALSE(case_errors(early, result()).within(1e9));
+  EXPECT_FALSE(case_errors(result(), early).within(1e9));
+  EXPECT_TRUE(case_errors(early, early).within(0)) << "both end there";
+  CaseResult shorter = result();
+  shorter.steps.pop_back();
+  EXPECT_FALSE(case_errors(shorter, result()).within(1e9)) << "with the same outcome";
+  EXPECT_FALSE(case_errors(result(), shorter).within(1e9));
+  CaseResult ended = result();
+  ended.outcome = Outcome::unconverged;
+  EXPECT_FALSE(case_errors(ended, result()).within(1e9)) << "with as many steps";
+  CaseResult event = result();
+  event.outcome = Outcome::event;
+  EXPECT_TRUE(case_errors(event, result()).within(0)) << "in equilibrium, and counted as a flag";
+}
+
 TEST(CaseErrors, TakeFaultsThatOpenInBothForAlike) {
   CaseResult exact = result(), other = result();
   for (CaseResult* one : {&exact, &other})
