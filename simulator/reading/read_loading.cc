@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "simulator/common/dates.h"
 #include "simulator/common/near_miss.h"
+#include "simulator/common/text.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/reading/read_keys.h"
 #include "simulator/reading/scene_reader.h"
@@ -29,6 +31,7 @@ class LoadingReader {
     Stage stage;
     read_keys(reader_, at, stage);
     stage.duration = duration(at);
+    require_advance(at, stage);
     if (stage.stress_change) reader_.require_symmetric(at + "stress_change", *stage.stress_change);
     const int cycles = reader_.integer(at + "cycles", 1);
     check_keys(at, stage, cycles);
@@ -102,6 +105,17 @@ class LoadingReader {
                     concat("the stage ends before it begins, at ", date_text(*start + start_)),
                     "write a later date");
     return kNaN;
+  }
+
+  /// Ends of steps must differ when they are rounded, or the loads of a stage are lost.
+  void require_advance(const std::string& at, const Stage& stage) {
+    const double step = stage.duration / stage.n_steps, end = start_ + stage.duration;
+    if (!(step < 2 * std::numeric_limits<double>::epsilon() * end)) return;
+    reader_.problem(
+        at + (reader_.has(at + "until") ? "until" : "duration"),
+        formatted("a step of %.3g s is too short to be told from none after %.6g s", step, start_),
+        stage.n_steps > 1 ? "make the stage longer, write fewer steps, or leave it out"
+                          : "make the stage longer, or leave it out");
   }
 
   void count_steps(const std::string& at, const Stage& stage) {

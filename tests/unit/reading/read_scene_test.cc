@@ -222,6 +222,30 @@ TEST(ReadScene, StagesSetPressurePerRegionAbsoluteOrHold) {
   EXPECT_EQ(west.pressure_change[4], west.pressure_change[2]);
 }
 
+/// 10 years and 1 ns are 10 years: two points of a history at one time.
+TEST(ReadScene, RefusesAStageWhoseStepsDoNotAdvanceTheTime) {
+  const auto refusal = [](const std::string& duration, int n_steps) -> std::string {
+    const std::string second = R"({"name": "b", "pressure_change": "-100 bar", "duration": ")" +
+                               duration + R"(", "steps": )" + std::to_string(n_steps) + "}";
+    try {
+      varied(rotliegend(), {{"/stages", R"([{"name": "a", "duration": "10 year", "steps": 1}, )" +
+                                            second + "]"}});
+    } catch (const InputError& error) {
+      const Problem& problem = error.problems().front();
+      return problem.pointer + ": " + problem.what + "; " + problem.cure;
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal("1e-9 s", 1),
+            "/stages/1/duration: a step of 1e-09 s is too short to be told from none after "
+            "3.15576e+08 s; make the stage longer, or leave it out");
+  EXPECT_EQ(refusal("1e-5 s", 10000),
+            "/stages/1/duration: a step of 1e-09 s is too short to be told from none after "
+            "3.15576e+08 s; make the stage longer, write fewer steps, or leave it out");
+  EXPECT_EQ(refusal("1e-6 s", 1), "");
+  EXPECT_EQ(refusal("1 s", 10000), "");
+}
+
 TEST(ReadScene, ReadsPressuresFromCsv) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scene_csv";
   std::filesystem::create_directories(folder);
