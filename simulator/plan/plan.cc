@@ -205,6 +205,12 @@ Plan plan_reductions(const Scene& scene) {
   return plan;
 }
 
+void count_steps(const Scene& scene, Plan& plan) {
+  const std::vector<StepEnd> steps = step_ends(scene);
+  plan.n_steps = static_cast<int>(steps.size());
+  plan.n_added_steps = static_cast<int>(std::ranges::count_if(steps, &StepEnd::added));
+}
+
 }  // namespace
 
 namespace {
@@ -278,10 +284,7 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems) {
   plan.n_cells = grid->n_cells;
   plan.n_jump = std::lround(shape.n_jump());
   plan.n_unknowns = std::lround(shape.unknowns_per_node * shape.n_nodes()) + plan.n_jump;
-  for (const StepEnd& step : step_ends(scene)) {
-    ++plan.n_steps;
-    plan.n_added_steps += step.added;
-  }
+  count_steps(scene, plan);
   plan.minus_side = minus_side(scene, plan);
   predict_cost(shape, plan);
   predict_influence(scene, shape, grid->n_loaded, plan);
@@ -300,7 +303,13 @@ Plan make_plan(const Scene& scene, std::vector<Problem>& problems, const Scene& 
   const bool is_alike = have_same_body(scene, other) && scene.output == other.output;
   // What creep may change depends on the stress.
   if (!is_alike || has_viscous_material(scene)) return make_plan(scene, problems);
+  Plan reduced = plan_reductions(scene);
+  // Pressures of faults need not be symmetric.
+  if (reduced.half_domain != of_other.half_domain || reduced.plane_strain != of_other.plane_strain)
+    return make_plan(scene, problems);
   Plan plan = of_other;
+  plan.reductions = std::move(reduced.reductions);
+  count_steps(scene, plan);
   plan.initial = initial_regions(scene);
   plan.warnings.clear();
   return plan;

@@ -77,7 +77,8 @@ int predicted_operators(const SurfaceRequest& surface);
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems);
 
 /// The same, where another sound scene's is known: where both differ in friction, pressure of
-/// faults and initial state alone, nothing else is planned again.
+/// faults and initial state alone, and these leave the reductions as they were, only load steps are
+/// counted again.
 Plan make_plan(const Scene& scene, std::vector<Problem>& problems, const Scene& other,
                const Plan& of_other);
 

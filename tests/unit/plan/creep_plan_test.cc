@@ -75,6 +75,39 @@ TEST(Plan, CountsAndNamesWhatTurningPointsAdd) {
   EXPECT_EQ(with.family, without.family) << "elastic: no operator changes";
 }
 
+/// The reference scene; with lines, its faults have a table of them.
+Scene tabled(std::vector<std::string> lines) {
+  JsonDocument document =
+      read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend.json");
+  if (lines.empty()) return read_scene(document);
+  document.value["fault_pressure"] = {{"rule", "table"}, {"csv", "p.csv"}};
+  document.value["tables"]["p.csv"] = std::move(lines);
+  return read_scene(document);
+}
+
+/// Pressures of faults may be lopsided, and may turn between load steps.
+TEST(Plan, TakenOverIsThatOfTheSceneItself) {
+  const std::string head = ", 0 year [MPa], 2.5 year [MPa], 18 year [MPa]";
+  const std::vector<Scene> scenes = {
+      tabled({}), tabled({"depth [m]" + head, "1800, 0, -3, 0", "2400, 0, -3, 0"}),
+      tabled({"depth [m], along_strike [m]" + head, "1800, -1200, 0, -3, 0", "1800, 1200, 0, -1, 0",
+              "2400, -1200, 0, -3, 0", "2400, 1200, 0, -1, 0"})};
+  EXPECT_TRUE(planned(scenes[0]).half_domain);
+  EXPECT_TRUE(planned(scenes[1]).half_domain);
+  EXPECT_EQ(planned(scenes[1]).n_steps, planned(scenes[0]).n_steps + 1);
+  EXPECT_FALSE(planned(scenes[2]).half_domain);
+  for (const Scene& from : scenes) {
+    for (const Scene& to : scenes) {
+      ASSERT_TRUE(have_same_body(from, to));
+      std::vector<Problem> problems;
+      const Plan plan = make_plan(to, problems, from, planned(from));
+      EXPECT_TRUE(problems.empty());
+      EXPECT_EQ(plan_to_json(plan), plan_to_json(planned(to)));
+      EXPECT_EQ(plan.n_jump, planned(to).n_jump);
+    }
+  }
+}
+
 TEST(Plan, ReportsTheInitialStateOfEachBlock) {
   const nlohmann::json plan =
       plan_to_json(planned(elastic({{"/geometry/blocks/1/offset", "100 m"}})));
