@@ -4,16 +4,18 @@
 
 namespace faultsim::grid_scene {
 
-/// A part of the map with pressures of its own.
+/// Parts of the map with pressures of their own.
 struct ModelCompartment {
   std::string name;
-  int source = -1;  ///< into GridStructure::compartments.
-  Eigen::Vector2d inside = {0, 0};
+  int source = -1;                         ///< into GridStructure::compartments.
+  Eigen::Vector2d inside = {0, 0};         ///< in its largest part.
+  std::vector<Eigen::Vector2d> also = {};  ///< in its other parts, the larger first.
 };
 
-/// For each compartment of the grid the middle of one of its columns, as far from all lines as can
-/// be. Those that the lines of the model do not part are joined, those without room are left out:
-/// said in remarks.
+/// Each part of the map that the lines of the model bound belongs to the compartment of the grid
+/// that has most columns in it, and is named by the middle of a column, as far from all lines as
+/// can be. Compartments that have most columns nowhere are joined to those that have, parts without
+/// room are left out: said in remarks, with the number of columns that are in no compartment.
 std::vector<ModelCompartment> model_compartments(const corner_point::CornerPointGrid& grid,
                                                  const corner_point::GridStructure& structure,
                                                  const ModelLines& lines, Remarks& remarks);

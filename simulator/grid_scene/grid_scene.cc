@@ -192,9 +192,12 @@ void SceneMaker::add_geometry() {
   Json reservoir = Json::array();
   for (std::size_t s = 0; s + 1 < made_.surfaces.size(); ++s)
     reservoir.push_back(made_.surfaces[s].name);
-  for (const ModelCompartment& one : made_.compartments)
-    geometry["compartments"].push_back(
-        {{"name", one.name}, {"inside", place(one.inside)}, {"layers", reservoir}});
+  for (const ModelCompartment& one : made_.compartments) {
+    Json compartment = {{"name", one.name}, {"inside", place(one.inside)}};
+    if (!one.also.empty()) compartment["also_inside"] = places(one.also);
+    compartment["layers"] = reservoir;
+    geometry["compartments"].push_back(std::move(compartment));
+  }
   for (const ModelDivider& one : lines.dividers)
     geometry["dividers"].push_back({{"name", one.name}, {"line", places(one.line)}});
   say(RemarkKind::choice,

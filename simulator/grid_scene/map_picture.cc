@@ -51,9 +51,13 @@ class MapPicture {
       curve(panel, divider.line, {figure::kFaint, 1, "5 3"});
     for (std::size_t f = 0; f < made_.lines.faults.size(); ++f) draw_fault(svg, panel, f);
     for (const ModelCompartment& one : made_.compartments) {
-      const figure::Point at = panel.at(one.inside.x() / 1e3, one.inside.y() / 1e3);
-      svg.text({at.x, at.y + 4}, one.name,
-               {.size = figure::kTitleSize, .anchor = figure::Anchor::middle, .bold = true});
+      std::vector<Vector2d> parts = one.also;
+      parts.push_back(one.inside);
+      for (const Vector2d& inside : parts) {
+        const figure::Point at = panel.at(inside.x() / 1e3, inside.y() / 1e3);
+        svg.text({at.x, at.y + 4}, one.name,
+                 {.size = figure::kTitleSize, .anchor = figure::Anchor::middle, .bold = true});
+      }
     }
     panel.frame();
     return svg.finish();

@@ -41,9 +41,15 @@ std::vector<TracePiece> trace_pieces(const MapMesh& map, const std::vector<MapSi
 std::vector<int> parts_of(const MapMesh& map, const std::vector<MapSide>& sides,
                           const std::vector<const MapSide*>& walls);
 
-/// Per triangle the compartment it belongs to, or −1: filled from the point inside of each, up to
-/// faults, dividers and the box. Points outside of the map, and two in one part of it, are appended
-/// to problems.
+/// The same with all lines as walls: parts that faults and dividers bound.
+std::vector<int> parts_between_lines(const MapMesh& map);
+
+/// Per place the triangle that holds it, −1 where none does; in time about proportional to both.
+std::vector<int> triangles_around(const MapMesh& map, const std::vector<Eigen::Vector2d>& places);
+
+/// Per triangle the compartment it belongs to, or −1: filled from the points inside of each, up to
+/// faults, dividers and the box. Points outside of the map, and those of two compartments in one
+/// part of it, are appended to problems.
 std::vector<int> fill_compartments(const MapMesh& map, const std::vector<Compartment>& compartments,
                                    std::vector<Problem>& problems);
 

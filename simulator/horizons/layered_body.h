@@ -67,11 +67,13 @@ struct BodyLayer {
   bool is_fine = false;
 };
 
-/// A part of the map that faults and dividers bound (and the box), with a region in some layers.
+/// Parts of the map, each bounded by faults and dividers (and the box), with a region in some layers.
 struct Compartment {
   std::string name;
   Eigen::Vector2d inside;   ///< a point of it, at the depth of traces.
   std::vector<int> region;  ///< per layer, pressure region or −1.
+  /// Points of its other parts of the map: one pressure, whatever faults lie between.
+  std::vector<Eigen::Vector2d> also_inside = {};
 };
 
 /// A line in the map that separates compartments and is no fault: a fault's continuation, say. The

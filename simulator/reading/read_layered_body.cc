@@ -186,6 +186,7 @@ void BodyReader::read_compartments() {
     const std::string at = element("/geometry/compartments", c);
     horizons::Compartment one{reader_.text(at + "/name"), pair(at + "/inside"),
                               std::vector<int>(layers.size(), -1)};
+    if (reader_.has(at + "/also_inside")) one.also_inside = line(at + "/also_inside");
     for (std::size_t k = 0; k < reader_.size(at + "/layers"); ++k) {
       const std::string place = element(at + "/layers", k), name = reader_.text(place);
       reader_.require_known(place, name, "layer", layers);

@@ -3,16 +3,19 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
+#include "simulator/common/errors.h"
 #include "simulator/corner_point/column_map.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/grid_pictures.h"
 #include "simulator/grid_scene/line_check.h"
 #include "simulator/grid_scene/mesh_size.h"
 #include "simulator/grid_scene/outline.h"
+#include "simulator/horizons/cut_map.h"
 #include "tests/unit/grid_scene/made_scene.h"
 
 namespace faultsim::grid_scene {
@@ -269,6 +272,77 @@ TEST(GridScene, GoesOnFromTipsOnRequest) {
   EXPECT_EQ(all.made.compartments.size(), 2u);
   ASSERT_EQ(all.made.lines.dividers.size(), 3u);
   EXPECT_EQ(all.made.lines.dividers[0].name, "on_from_F1");
+}
+
+/// Columns of the active map, counted over it, in parts of the map that no compartment has.
+std::vector<int> columns_in_none(const MadeScene& all) {
+  horizons::LayeredBody body = body_of_lines(all.made.lines);
+  for (const ModelCompartment& one : all.made.compartments)
+    body.compartments.push_back({one.name, one.inside, {}, one.also});
+  std::vector<Problem> problems;
+  const horizons::MapMesh map =
+      horizons::mesh_map(body, horizons::meeting_lines(body, problems), problems);
+  const std::vector<int> filled = horizons::fill_compartments(map, body.compartments, problems);
+  EXPECT_TRUE(problems.empty());
+  const corner_point::ColumnMap columns(all.grid);
+  std::vector<Vector2d> middles;
+  for (int column = 0; column < all.grid.n_columns(); ++column) {
+    if (!columns.is_inside(column)) continue;
+    const auto [i, j] = all.grid.place(column);
+    middles.emplace_back(100 * (i + 0.5), 80 * (j + 0.5));
+  }
+  std::vector<int> none;
+  const std::vector<int> around = horizons::triangles_around(map, middles);
+  for (std::size_t c = 0; c < around.size(); ++c) {
+    if (around[c] < 0 || filled[around[c]] < 0) none.push_back(static_cast<int>(c));
+  }
+  return none;
+}
+
+/// One equilibrium region on both sides of a fault is one compartment of two parts, whatever their
+/// sizes; so is one that lies above another.
+TEST(ModelCompartments, HaveAllPartsThatFaultsDivideThemInto) {
+  MadeGrid plan{.size = {16, 12, 2}, .thickness = {20, 20}};
+  plan.faults = {{{1200, -200}, {1200, 1200}, [](double) { return 60.0; }}};
+  corner_point::CornerPointGrid grid = made(plan);
+  for (const bool is_layered : {false, true}) {
+    grid.equilibrium_region.assign(grid.is_active.size(), 1);
+    const std::size_t half = grid.is_active.size() / 2;
+    if (is_layered)
+      std::fill(grid.equilibrium_region.begin() + static_cast<std::ptrdiff_t>(half),
+                grid.equilibrium_region.end(), 2);
+    const MadeScene all =
+        scene_of(grid, {.compartments = corner_point::CompartmentRule::equilibrium_regions});
+    ASSERT_EQ(all.made.lines.faults.size(), 1u);
+    ASSERT_EQ(all.made.compartments.size(), 1u);
+    const ModelCompartment& one = all.made.compartments[0];
+    ASSERT_EQ(one.also.size(), 1u);
+    EXPECT_LT(one.inside.x(), 1200) << "the larger part first";
+    EXPECT_GT(one.also[0].x(), 1200);
+    EXPECT_EQ(columns_in_none(all), std::vector<int>());
+    EXPECT_EQ(all.made.scene["geometry"]["compartments"][0]["also_inside"].size(), 1u);
+    EXPECT_TRUE(says(all.made.remarks, "is in 2 parts that lines of the model bound"));
+    EXPECT_FALSE(says(all.made.remarks, "in no compartment"));
+    EXPECT_EQ(says(all.made.remarks, "is part of another one in the model"), is_layered);
+  }
+}
+
+/// A strip between two faults that is too narrow for the mesh is said with its columns.
+TEST(ModelCompartments, SayHowManyColumnsAreInNone) {
+  MadeGrid plan{.size = {16, 12, 2}, .thickness = {20, 20}};
+  plan.faults = {{{700, -200}, {700, 1200}, [](double) { return 60.0; }},
+                 {{800, -200}, {800, 1200}, [](double) { return 60.0; }}};
+  GridSceneOptions options;
+  options.lines.strike = 95;
+  const MadeScene all = scene_of(made(plan), {}, options);
+  const std::size_t n_none = columns_in_none(all).size();
+  EXPECT_EQ(all.made.lines.faults.size(), 2u);
+  EXPECT_EQ(n_none, 0u);
+  options.lines.strike = 101;
+  const MadeScene coarse = scene_of(made(plan), {}, options);
+  EXPECT_EQ(coarse.made.lines.faults.size(), 2u);
+  EXPECT_TRUE(says(coarse.made.remarks, concat(columns_in_none(coarse).size(),
+                                               " of 192 columns within the outline are")));
 }
 
 TEST(GridPictures, SayWhatWasRecognised) {

@@ -27,7 +27,7 @@ horizons::LayeredBody flat_body(const GridScene& made) {
   body.layers = {{0}, {1}, {2}};
   int region = 0;
   for (const ModelCompartment& one : made.compartments)
-    body.compartments.push_back({one.name, one.inside, {-1, region++, -1}});
+    body.compartments.push_back({one.name, one.inside, {-1, region++, -1}, one.also});
   return body;
 }
 

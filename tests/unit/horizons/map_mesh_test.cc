@@ -114,6 +114,43 @@ TEST(Compartments, AreFilledUpToFaultsAndDividers) {
   EXPECT_THAT(problems.back().what, testing::HasSubstr("outside the box"));
 }
 
+TEST(Compartments, MayHaveSeveralParts) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.dividers = {{"across", {{500, -2000}, {500, 2000}}}};
+  const MapMesh map = meshed(body);
+  std::vector<Problem> problems;
+  const std::vector<int> filled = fill_compartments(
+      map, {{"middle", {250, 0}, {}}, {"beside", {-1000, 0}, {}, {{1000, 0}}}}, problems);
+  EXPECT_TRUE(problems.empty());
+  for (std::size_t t = 0; t < filled.size(); ++t) {
+    double x = 0;
+    for (const int v : map.triangles[t]) x += map.vertices[v].x() / 3;
+    EXPECT_EQ(filled[t], x < 0 || x > 500 ? 1 : 0);
+  }
+  fill_compartments(map, {{"a", {250, 0}, {}}, {"b", {-1000, 0}, {}, {{300, 0}, {9000, 0}}}},
+                    problems);
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_EQ(problems[0].pointer, "/compartments/1/also_inside/0");
+  EXPECT_THAT(problems[0].what, testing::HasSubstr("\"b\" and \"a\" are one part of the map"));
+  EXPECT_EQ(problems[1].pointer, "/compartments/1/also_inside/1");
+}
+
+TEST(MapMesh, SaysWhichTriangleHoldsAPlace) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  const MapMesh map = meshed(body);
+  std::vector<Eigen::Vector2d> places = {{9000, 0}};
+  std::vector<int> of = {-1};
+  for (std::size_t t = 0; t < map.triangles.size(); ++t) {
+    Eigen::Vector2d middle(0, 0);
+    for (const int v : map.triangles[t]) middle += map.vertices[v] / 3;
+    places.push_back(middle);
+    of.push_back(static_cast<int>(t));
+  }
+  EXPECT_EQ(triangles_around(map, places), of);
+}
+
 /// Pressures end at a divider and no rock slides: cells there are larger than at faults, and of the
 /// fault's size where it begins at one.
 TEST(Dividers, HaveLargerCellsThanFaults) {

@@ -412,6 +412,8 @@ TEST_F(HorizonsScene, WhatCannotBeBuiltIsSaidWithItsPlace) {
               HasSubstr("/faults/0/dip_from_vertical: \"F1\" dips by 2 degrees"));
   EXPECT_THAT(said({{"/geometry/compartments/1/inside", R"(["-600 m", "0 m"])"}}),
               HasSubstr("/geometry/compartments/1/inside: "));
+  EXPECT_THAT(said({{"/geometry/compartments/0/also_inside", R"([["600 m", "0 m"]])"}}),
+              HasSubstr("are one part of the map"));
   JsonDocument bare = document();
   bare.value["faults"][0].erase("trace");
   bare.value.erase("mesh");
