@@ -91,6 +91,7 @@ class LineMaker {
   void open_v_ends();
   void draw_ends(std::size_t f);
   void draw_end(std::size_t f, bool is_last);
+  std::optional<Polyline> beyond_edge(const Polyline& trace, const FaultEnd& end) const;
   Polyline at_tip(const Polyline& trace, std::size_t f, LineEnd& kind) const;
   bool is_clear(const Vector2d& from, const Vector2d& to, std::size_t except) const;
   void draw_dividers();
@@ -261,18 +262,29 @@ void LineMaker::draw_end(std::size_t f, bool is_last) {
     fault.trace = led_to(fault.trace, lines_.faults[other].trace, cell_);
     kind = LineEnd::fault;
   } else if (end.kind == EndKind::grid_edge) {
-    constexpr double kFlat = 4;  // m beyond the edge for each m of throw: the horizons close there
-    const double beyond = std::max(options_.least_edge_run * cell_, kFlat * std::abs(end.offset));
-    std::optional<Polyline> best;
-    for (const Polyline& outline : lines_.outlines) {
-      const auto led = led_across(fault.trace, closed(outline), cell_, beyond);
-      if (led && (!best || line_length(*led) < line_length(*best))) best = led;
-    }
-    fault.trace = best ? *best : at_tip(fault.trace, f, kind);
+    const std::optional<Polyline> beyond = beyond_edge(fault.trace, end);
+    fault.trace = beyond ? *beyond : at_tip(fault.trace, f, kind);
   } else {
     fault.trace = at_tip(fault.trace, f, kind);
   }
   if (!is_last) std::ranges::reverse(fault.trace);
+}
+
+/// A trace that ends outside of an outline that is near. None is where the outline takes in a small
+/// hole: the fault has a tip there, however near the edge of the map.
+std::optional<Polyline> LineMaker::beyond_edge(const Polyline& trace, const FaultEnd& end) const {
+  constexpr double kNear = 2;  // cells
+  constexpr double kFlat = 4;  // m beyond the edge for each m of throw: the horizons close there
+  const double beyond = std::max(options_.least_edge_run * cell_, kFlat * std::abs(end.offset));
+  const bool is_outside = !is_within(lines_.outlines, trace.back());
+  std::optional<Polyline> best;
+  for (const Polyline& outline : lines_.outlines) {
+    const Polyline ring = closed(outline);
+    if (!is_outside && nearest_on_line(ring, trace.back()).distance > kNear * cell_) continue;
+    const auto led = led_across(trace, ring, cell_, beyond);
+    if (led && (!best || line_length(*led) < line_length(*best))) best = led;
+  }
+  return best;
 }
 
 /// Whether a stretch keeps a cell of the mesh and a half from all other lines.

@@ -345,6 +345,30 @@ TEST(ModelCompartments, SayHowManyColumnsAreInNone) {
                                                " of 192 columns within the outline are")));
 }
 
+/// Beside a hole that the outline takes in there is no edge: the fault ends in the rock, and is not
+/// led to another edge. What is inactive there is nowhere, else the map takes it in itself.
+TEST(GridScene, LeavesAFaultInTheRockThatEndsAtAHoleTakenIn) {
+  MadeGrid plan{.size = {20, 24, 2}, .thickness = {20, 20}};
+  plan.faults = {{{500, -200}, {500, 1000}, [](double s) { return s < 0.93 ? 60.0 : 0.0; }}};
+  plan.inactive = {{5, 11, -1}};
+  corner_point::CornerPointGrid grid = made(plan);
+  for (std::size_t plane = 0; plane < 4; ++plane)
+    for (const std::size_t row : {22, 23})
+      for (const std::size_t place : {10, 11}) grid.corner_z[(plane * 48 + row) * 40 + place] = 0;
+  const MadeScene all = scene_of(grid);
+  ASSERT_EQ(all.structure.faults.size(), 1u);
+  const corner_point::Fault& source = all.structure.faults[0];
+  EXPECT_EQ(source.begin.kind, corner_point::EndKind::grid_edge);
+  EXPECT_EQ(source.end.kind, corner_point::EndKind::grid_edge);
+  ASSERT_EQ(all.made.lines.faults.size(), 1u);
+  const Polyline& trace = all.made.lines.faults[0].trace;
+  const Vector2d& north = trace.back().y() > trace.front().y() ? trace.back() : trace.front();
+  const Vector2d& south = trace.back().y() > trace.front().y() ? trace.front() : trace.back();
+  EXPECT_LT((north - Vector2d(500, 880)).norm(), 150) << north.transpose();
+  EXPECT_LT(south.y(), -100) << "beyond the edge";
+  EXPECT_EQ(columns_in_none(all), std::vector<int>());
+}
+
 TEST(GridPictures, SayWhatWasRecognised) {
   const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
   const std::string map = map_picture(all.structure, all.made);
