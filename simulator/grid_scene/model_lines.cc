@@ -259,8 +259,12 @@ void LineMaker::draw_end(std::size_t f, bool is_last) {
       (lines_.faults[other].source < fault.source ||
        nearest_on_line(lines_.faults[other].trace, fault.trace.back()).distance < lines_.strike);
   if (is_led) {
-    fault.trace = led_to(fault.trace, lines_.faults[other].trace, cell_);
-    kind = LineEnd::fault;
+    const Polyline& at = lines_.faults[other].trace;
+    fault.trace = led_to(fault.trace, at, cell_);
+    // What is still apart would be refused.
+    const bool is_there = nearest_on_line(at, fault.trace.back()).distance <= lines_.strike;
+    kind = is_there ? LineEnd::fault : LineEnd::rock;
+    if (!is_there) fault.trace = at_tip(fault.trace, f, kind);
   } else if (end.kind == EndKind::grid_edge) {
     const std::optional<Polyline> beyond = beyond_edge(fault.trace, end);
     fault.trace = beyond ? *beyond : at_tip(fault.trace, f, kind);

@@ -103,7 +103,18 @@ std::optional<Polyline> led_across(const Polyline& trace, const Polyline& other,
 Polyline led_to(const Polyline& trace, const Polyline& other, double cell) {
   const Vector2d last = trace.back() - trace[trace.size() - 2];
   constexpr double kNear = 0.1;  // cells
-  if (least_angle(last, other, trace.back(), kNear * cell) >= kLeastMeeting) return trace;
+  const PlaceOnLine end = nearest_on_line(other, trace.back());
+  const bool is_on_it = end.distance <= kNear * cell;
+  if (is_on_it && least_angle(last, other, trace.back(), kNear * cell) >= kLeastMeeting)
+    return trace;
+  if (!is_on_it && end.distance <= cell) {
+    const Vector2d moved = end.point - trace[trace.size() - 2];
+    if (least_angle(moved, other, end.point, kNear * cell) >= kLeastMeeting) {
+      Polyline joined = trace;
+      joined.back() = end.point;
+      return joined;
+    }
+  }
   Polyline led = before(trace, line_length(trace), kBack * cell);
   const PlaceOnLine nearest = nearest_on_line(other, led.back());
   if (nearest.distance == 0) return trace;

@@ -26,8 +26,9 @@ Polyline cut_at(const Polyline& line, double along);
 std::optional<Polyline> led_across(const Polyline& trace, const Polyline& other, double cell,
                                    double beyond);
 
-/// A trace that ends on `other` at 35 degrees or more; otherwise its last pieces go straight to the
-/// nearest place. Unchanged where even that is too flat.
+/// A trace that ends on `other`, within a tenth of a cell, at 35 degrees or more. Otherwise its end
+/// is moved there by up to a cell, or its last pieces go straight to the nearest place. Unchanged
+/// where even that is too flat.
 Polyline led_to(const Polyline& trace, const Polyline& other, double cell);
 
 /// The trace prolonged at its end in the direction of its last piece.

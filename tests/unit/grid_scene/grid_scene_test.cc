@@ -15,6 +15,7 @@
 #include "simulator/grid_scene/line_check.h"
 #include "simulator/grid_scene/mesh_size.h"
 #include "simulator/grid_scene/outline.h"
+#include "simulator/grid_scene/trace_ends.h"
 #include "simulator/horizons/cut_map.h"
 #include "tests/unit/grid_scene/made_scene.h"
 
@@ -367,6 +368,20 @@ TEST(GridScene, LeavesAFaultInTheRockThatEndsAtAHoleTakenIn) {
   EXPECT_LT((north - Vector2d(500, 880)).norm(), 150) << north.transpose();
   EXPECT_LT(south.y(), -100) << "beyond the edge";
   EXPECT_EQ(columns_in_none(all), std::vector<int>());
+}
+
+/// By up to a cell the end is moved, from further away some cells of the trace are led there.
+TEST(TraceEnds, AreLedToAFaultThatTheyDoNotTouch) {
+  const Polyline other = {{0, -500}, {0, 500}};
+  for (const double away : {40.0, 150.0}) {
+    const Polyline trace = {{-1000, 0}, {-away, 10}};
+    const Polyline led = led_to(trace, other, 100);
+    EXPECT_LT(nearest_on_line(other, led.back()).distance, 1e-9) << away;
+    EXPECT_LT(led.back().norm(), 20) << away;
+    EXPECT_EQ(led.size(), away < 100 ? 2u : 3u);
+  }
+  const Polyline touches = {{-1000, 0}, {-1, 10}};
+  EXPECT_EQ(led_to(touches, other, 100), touches);
 }
 
 TEST(GridPictures, SayWhatWasRecognised) {
