@@ -1,10 +1,12 @@
 #include "simulator/grid_scene/line_check.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "simulator/common/ranges.h"
+#include "simulator/corner_point/straight_trace.h"
 #include "simulator/grid_scene/trace_ends.h"
 #include "simulator/horizons/body_check.h"
 #include "simulator/horizons/map_mesh.h"
@@ -13,6 +15,8 @@
 
 namespace faultsim::grid_scene {
 namespace {
+
+using Eigen::Vector2d;
 
 horizons::TraceEnd end_of_trace(LineEnd end) {
   return end == LineEnd::fault ? horizons::TraceEnd::at_fault : horizons::TraceEnd::in_rock;
@@ -59,14 +63,37 @@ std::vector<Problem> problems_of(const horizons::LayeredBody& body) {
   return problems;
 }
 
-/// The last fault without which lines fit; −1: none.
-int fault_to_blame(const ModelLines& lines) {
-  for (int f = static_cast<int>(lines.faults.size()); f-- > 0;) {
-    ModelLines without = lines;
-    without.faults.erase(without.faults.begin() + f);
-    if (problems_of(body_of_lines(without)).empty()) return f;
+/// Lines without a fault, those that end at it in the rock.
+ModelLines without_fault(const ModelLines& lines, std::size_t fault) {
+  ModelLines without = lines;
+  const Polyline trace = lines.faults[fault].trace;
+  without.faults.erase(without.faults.begin() + static_cast<std::ptrdiff_t>(fault));
+  const auto ends_at_it = [&](const Vector2d& end) {
+    const double away = corner_point::nearest_on_line(trace, end).distance;
+    return away <= lines.strike &&
+           std::ranges::none_of(without.faults, [&](const ModelFault& other) {
+             const bool is_own = end == other.trace.front() || end == other.trace.back();
+             return !is_own && corner_point::nearest_on_line(other.trace, end).distance < away;
+           });
+  };
+  for (ModelFault& other : without.faults) {
+    if (ends_at_it(other.trace.front())) other.first_end = LineEnd::rock;
+    if (ends_at_it(other.trace.back())) other.last_end = LineEnd::rock;
   }
-  return -1;
+  return without;
+}
+
+/// The last fault without which lines fit, or else, on request, without which the builder says
+/// something else first; −1: none.
+int fault_to_blame(const ModelLines& lines, const std::string& first, Blame blame) {
+  int changes_it = -1;
+  for (std::size_t f = lines.faults.size(); f-- > 0;) {
+    const std::vector<Problem> problems = problems_of(body_of_lines(without_fault(lines, f)));
+    if (problems.empty()) return static_cast<int>(f);
+    if (changes_it < 0 && !contains(problems, first, &Problem::what))
+      changes_it = static_cast<int>(f);
+  }
+  return blame == Blame::of_the_first ? changes_it : -1;
 }
 
 }  // namespace
@@ -94,7 +121,7 @@ horizons::LayeredBody body_of_lines(const ModelLines& lines) {
   return body;
 }
 
-std::optional<Misfit> first_misfit(const ModelLines& lines) {
+std::optional<Misfit> first_misfit(const ModelLines& lines, Blame blame) {
   if (const std::optional<Misfit> flat = flat_crossing(lines)) return flat;
   const std::vector<Problem> problems = problems_of(body_of_lines(lines));
   if (problems.empty()) return std::nullopt;
@@ -105,7 +132,7 @@ std::optional<Misfit> first_misfit(const ModelLines& lines) {
     if (last.what.empty() || fault > last.fault)
       last = {fault, problem.what, fault >= 0 && !is_of_line};
   }
-  if (last.fault < 0) last.fault = fault_to_blame(lines);
+  if (last.fault < 0) last.fault = fault_to_blame(lines, last.what, blame);
   return last;
 }
 

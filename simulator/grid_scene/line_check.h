@@ -21,8 +21,15 @@ struct Misfit {
   bool is_in_depth = false;  ///< by how it dips; else by its line.
 };
 
+/// Which fault is to blame where the builder names none.
+enum class Blame {
+  of_all,        ///< the last without which all lines fit.
+  of_the_first,  ///< else the last without which something else is wrong first.
+};
+
 /// What the builder says of the lines, of cells between them and of faults in depth, before it
-/// looks at horizons; of faults that cross flatly the later one is to blame.
-std::optional<Misfit> first_misfit(const ModelLines& lines);
+/// looks at horizons; of faults that cross flatly the later one is to blame. Those that end at a
+/// fault which is tried to be left out end in the rock then.
+std::optional<Misfit> first_misfit(const ModelLines& lines, Blame blame = Blame::of_all);
 
 }  // namespace faultsim::grid_scene

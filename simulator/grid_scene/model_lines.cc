@@ -60,7 +60,7 @@ class LineMaker {
                        "give the grid of the field, not that of a section");
     take_box();
     lines_.strike = chosen_strike(structure_, lines_, cell_, options_, remarks_);
-    std::string trouble = fit();
+    std::string trouble = fit(Blame::of_all);
     if (!trouble.empty()) {
       for (Polyline& outline : lines_.outlines) outline = hull_of(outline);
       remarks_.push_back({RemarkKind::choice,
@@ -68,7 +68,7 @@ class LineMaker {
                           "not fit with the faults (" +
                               trouble + ")",
                           ""});
-      trouble = fit();
+      trouble = fit(Blame::of_the_first);
     }
     if (!trouble.empty())
       remarks_.push_back({RemarkKind::warning, "lines do not fit together yet: " + trouble, ""});
@@ -79,7 +79,7 @@ class LineMaker {
 
  private:
   void take_box();
-  std::string fit();
+  std::string fit(Blame blame);
   bool smooth_dips(int source);
   double dip_reach(int source) const {
     return kDipReaches[reach_[source]] * structure_.faults[source].cell;
@@ -146,12 +146,12 @@ void LineMaker::take_box() {
 
 /// Draws all lines; what does not fit with others is left out, one fault after the other.
 /// @returns "" or what is still wrong.
-std::string LineMaker::fit() {
+std::string LineMaker::fit(Blame blame) {
   const std::size_t n_rounds = structure_.faults.size() * (kDipReaches.size() + 1);
   for (std::size_t round = 0; round <= n_rounds; ++round) {
     draw_faults();
     draw_dividers();
-    const std::optional<Misfit> misfit = first_misfit(lines_);
+    const std::optional<Misfit> misfit = first_misfit(lines_, blame);
     if (!misfit) return "";
     if (misfit->fault < 0) return misfit->what;
     if (misfit->is_in_depth && smooth_dips(lines_.faults[misfit->fault].source)) continue;

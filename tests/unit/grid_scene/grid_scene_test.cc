@@ -384,6 +384,54 @@ TEST(TraceEnds, AreLedToAFaultThatTheyDoNotTouch) {
   EXPECT_EQ(led_to(touches, other, 100), touches);
 }
 
+ModelLines lines_in_a_box(const std::vector<ModelFault>& faults) {
+  ModelLines lines;
+  lines.low = {-5000, -5000};
+  lines.high = {5000, 5000};
+  lines.reference_z = -2000;
+  lines.base = -4000;
+  lines.strike = 100;
+  lines.faults = faults;
+  for (std::size_t f = 0; f < faults.size(); ++f) {
+    ModelFault& fault = lines.faults[f];
+    fault.name = concat("F", f + 1);
+    fault.source = static_cast<int>(f);
+    fault.top = -1800;
+    fault.bottom = -2200;
+  }
+  return lines;
+}
+
+/// From the west across a trace that runs north, and back to it.
+ModelFault hooked(const Vector2d& at) {
+  return {.name = "",
+          .trace = {at - Vector2d(1000, 20), at + Vector2d(45, 0), at + Vector2d(0, 80)},
+          .last_end = LineEnd::fault};
+}
+
+/// F2 crosses F1 and comes back to it; F3 ends at F2, and with F2 left out would end nowhere.
+TEST(LineCheck, BlamesAFaultThatOthersEndAt) {
+  const ModelFault first{.name = "", .trace = {{0, -2000}, {0, 2000}}},
+      third{.name = "", .trace = {{-500, -800}, {-500, 9.6}}, .last_end = LineEnd::fault};
+  const std::optional<Misfit> misfit =
+      first_misfit(lines_in_a_box({first, hooked({0, 20}), third}));
+  ASSERT_TRUE(misfit);
+  EXPECT_THAT(misfit->what, HasSubstr("too close"));
+  EXPECT_EQ(misfit->fault, 1);
+}
+
+/// Two such places: no fault alone cures both.
+TEST(LineCheck, BlamesOneOfTwoFaultsThatDoNotFitOnRequest) {
+  const ModelFault first{.name = "", .trace = {{0, -2000}, {0, 2000}}},
+      third{.name = "", .trace = {{3000, -2000}, {3000, 2000}}};
+  const ModelLines lines = lines_in_a_box({first, hooked({0, 20}), third, hooked({3000, 1020})});
+  const std::optional<Misfit> of_all = first_misfit(lines),
+                              of_the_first = first_misfit(lines, Blame::of_the_first);
+  ASSERT_TRUE(of_all && of_the_first);
+  EXPECT_EQ(of_all->fault, -1);
+  EXPECT_TRUE(of_the_first->fault == 1 || of_the_first->fault == 3) << of_the_first->fault;
+}
+
 TEST(GridPictures, SayWhatWasRecognised) {
   const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
   const std::string map = map_picture(all.structure, all.made);
