@@ -37,6 +37,30 @@ std::string metres(double value) { return formatted("%.0f m", value); }
 /// How far dips of a fault reach along it: over so many cells of the grid; 0: it has one.
 constexpr std::array<double, 4> kDipReaches = {2, 4, 8, 0};
 
+/// A place of a closed line, on one of its pieces.
+struct RingPlace {
+  std::size_t piece;
+  Vector2d at;
+};
+
+/// A closed line from one of its places on to another, which may lie on the same piece.
+Polyline stretch_of(const Polyline& ring, const RingPlace& from, const RingPlace& to) {
+  const std::size_t n = ring.size() - 1;
+  const Vector2d& corner = ring[from.piece];
+  const bool is_ahead =
+      from.piece == to.piece && (to.at - corner).norm() > (from.at - corner).norm();
+  Polyline line = {from.at};
+  if (!is_ahead) {
+    std::size_t p = from.piece;
+    do {
+      line.push_back(ring[p + 1]);
+      p = (p + 1) % n;
+    } while (p != to.piece);
+  }
+  line.push_back(to.at);
+  return line;
+}
+
 class LineMaker {
  public:
   LineMaker(const CornerPointGrid& grid, const GridStructure& structure, const LineOptions& options,
@@ -95,6 +119,8 @@ class LineMaker {
   Polyline at_tip(const Polyline& trace, std::size_t f, LineEnd& kind) const;
   bool is_clear(const Vector2d& from, const Vector2d& to, std::size_t except) const;
   void draw_dividers();
+  std::array<RingPlace, 2> places_to_part(const Polyline& ring) const;
+  double distance_to_drawn(const Vector2d& at) const;
   void draw_extension(const ModelFault& fault, bool is_last);
   int model_of(int source) const;
   void leave_out(int source, const std::string& why) { left_out_.emplace_back(source, why); }
@@ -331,44 +357,60 @@ Polyline LineMaker::at_tip(const Polyline& trace, std::size_t f, LineEnd& kind) 
   return trace;
 }
 
-/// Two lines around each part of the active map, parted where faults are far, and those that go on
-/// from tips.
+/// Two lines around each part of the active map, parted far from faults and other lines, and those
+/// that go on from tips.
 void LineMaker::draw_dividers() {
   lines_.dividers.clear();
-  const auto away = [&](const Vector2d& at) {
-    double least = 1e300;
-    for (const ModelFault& fault : lines_.faults)
-      least = std::min(least, nearest_on_line(fault.trace, at).distance);
-    return least;
-  };
   for (const ModelFault& fault : lines_.faults) {
     for (const bool is_last : {false, true}) draw_extension(fault, is_last);
   }
   for (std::size_t k = 0; k < lines_.outlines.size(); ++k) {
     const Polyline ring = closed(lines_.outlines[k]);
-    const Polyline middles = corner_point::middles_of(ring);
-    const auto farthest = [&](const Vector2d* from) {
-      std::size_t best = middles.size();
-      double most = -1;
-      for (std::size_t m = 0; m < middles.size(); ++m) {
-        const double room = std::min(away(middles[m]), (ring[m + 1] - ring[m]).norm());
-        const double here = from == nullptr ? room : std::min(room, (middles[m] - *from).norm());
-        if (here <= most) continue;
-        most = here;
-        best = m;
-      }
-      return best;
-    };
-    const std::size_t one = farthest(nullptr), two = farthest(&middles[one]);
-    const auto part = [&](std::size_t from, std::size_t to) {
-      Polyline line = {middles[from]};
-      for (std::size_t m = from; m != to; m = (m + 1) % middles.size()) line.push_back(ring[m + 1]);
-      line.push_back(middles[to]);
-      return line;
-    };
-    lines_.dividers.push_back({concat("outline", 2 * k + 1), part(one, two)});
-    lines_.dividers.push_back({concat("outline", 2 * k + 2), part(two, one)});
+    const auto [one, two] = places_to_part(ring);
+    lines_.dividers.push_back({concat("outline", 2 * k + 1), stretch_of(ring, one, two)});
+    lines_.dividers.push_back({concat("outline", 2 * k + 2), stretch_of(ring, two, one)});
   }
+}
+
+/// Two places of a ring, far from all lines so far, from its corners and from each other. Straight
+/// sides have several to choose from, a cell apart: faults often meet them at their middles.
+std::array<RingPlace, 2> LineMaker::places_to_part(const Polyline& ring) const {
+  std::vector<RingPlace> places;
+  std::vector<double> room;  // m
+  for (std::size_t p = 0; p + 1 < ring.size(); ++p) {
+    const double length = (ring[p + 1] - ring[p]).norm();
+    const auto n = static_cast<std::size_t>(std::max(1.0, std::floor(length / cell_)));
+    for (std::size_t k = 0; k < n; ++k) {
+      const double share = (static_cast<double>(k) + 0.5) / static_cast<double>(n);
+      const Vector2d at = ring[p] + share * (ring[p + 1] - ring[p]);
+      places.push_back({p, at});
+      room.push_back(std::min(distance_to_drawn(at), 2 * std::min(share, 1 - share) * length));
+    }
+  }
+  const auto roomiest = [&](const RingPlace* from) {
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const double here =
+          from == nullptr ? room[k] : std::min(room[k], (places[k].at - from->at).norm());
+      if (here <= most) continue;
+      most = here;
+      best = k;
+    }
+    return places[best];
+  };
+  const RingPlace one = roomiest(nullptr);
+  return {one, roomiest(&one)};
+}
+
+/// m, to faults and to dividers drawn so far.
+double LineMaker::distance_to_drawn(const Vector2d& at) const {
+  double least = 1e300;
+  for (const ModelFault& fault : lines_.faults)
+    least = std::min(least, nearest_on_line(fault.trace, at).distance);
+  for (const ModelDivider& divider : lines_.dividers)
+    least = std::min(least, nearest_on_line(divider.line, at).distance);
+  return least;
 }
 
 /// The straight line on from a tip that was prolonged (StructureOptions::extend_faults).

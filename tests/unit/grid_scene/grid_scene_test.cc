@@ -432,6 +432,43 @@ TEST(LineCheck, BlamesOneOfTwoFaultsThatDoNotFitOnRequest) {
   EXPECT_TRUE(of_the_first->fault == 1 || of_the_first->fault == 3) << of_the_first->fault;
 }
 
+/// Faults of square cells 100 m wide.
+MadeScene scene_of_squares(std::array<int, 3> size, std::vector<corner_point::MadeFault> faults,
+                           const corner_point::StructureOptions& structure = {}) {
+  GridSceneOptions options;
+  options.lines.strike = 100;
+  return scene_of(
+      made({.size = size, .dy = 100, .thickness = {20, 20}, .faults = std::move(faults)}),
+      structure, options);
+}
+
+/// Straight sides with a fault at the middle of each.
+TEST(GridScene, PartsARectangleWithFaultsAtTheMiddlesOfItsSides) {
+  const auto step = [](double) { return 60.0; };
+  const corner_point::MadeFault north{{600, -200}, {600, 1000}, step},
+      east{{-200, 400}, {1400, 400}, step}, half{{-200, 400}, {1400, 400}, step, 0};
+  const MadeScene x = scene_of_squares({12, 8, 2}, {north, east});
+  EXPECT_EQ(x.made.lines.faults.size(), 2u);
+  EXPECT_EQ(x.made.compartments.size(), 4u);
+  EXPECT_EQ(first_misfit(x.made.lines), std::nullopt);
+  const MadeScene t = scene_of_squares({12, 8, 2}, {north, half});
+  EXPECT_EQ(t.made.lines.faults.size(), 2u);
+  EXPECT_EQ(t.made.compartments.size(), 3u);
+  EXPECT_EQ(first_misfit(t.made.lines), std::nullopt);
+}
+
+/// What goes on from a tip reaches the middle of a side too.
+TEST(GridScene, PartsARectangleAwayFromLinesOnFromTips) {
+  const MadeScene all = scene_of_squares(
+      {24, 24, 2},
+      {{{1200, 0}, {1200, 2400}, [](double s) { return std::max(0.0, 60 - 144 * s); }}},
+      {.extend_faults = true});
+  EXPECT_EQ(all.made.lines.faults.size(), 1u);
+  EXPECT_EQ(all.made.lines.dividers.size(), 3u);
+  EXPECT_EQ(all.made.compartments.size(), 2u);
+  EXPECT_EQ(first_misfit(all.made.lines), std::nullopt);
+}
+
 TEST(GridPictures, SayWhatWasRecognised) {
   const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
   const std::string map = map_picture(all.structure, all.made);
