@@ -21,10 +21,10 @@ double length_of_outlines(const ModelLines& lines) {
   return length;
 }
 
-}  // namespace
-
-double median_cell(const corner_point::ColumnMap& map) {
-  std::vector<double> sides;
+/// The median over the columns of the active map of what is chosen of the sides of their tops,
+/// along i and along j, m.
+double median_of_sides(const corner_point::ColumnMap& map, const auto& side_of) {
+  std::vector<double> all;
   const corner_point::CornerPointGrid& grid = map.grid();
   for (int column = 0; column < grid.n_columns(); ++column) {
     if (!map.is_inside(column)) continue;
@@ -32,11 +32,24 @@ double median_cell(const corner_point::ColumnMap& map) {
     const Eigen::Vector3d at = grid.corner(column, k, {});
     const double along = (grid.corner(column, k, {true, false, false}) - at).head<2>().norm(),
                  across = (grid.corner(column, k, {false, true, false}) - at).head<2>().norm();
-    sides.push_back(std::max(along, across));
+    all.push_back(side_of(along, across));
   }
-  const auto middle = sides.begin() + std::ssize(sides) / 2;
-  std::ranges::nth_element(sides, middle);
+  const auto middle = all.begin() + std::ssize(all) / 2;
+  std::ranges::nth_element(all, middle);
   return *middle;
+}
+
+}  // namespace
+
+double median_cell(const corner_point::ColumnMap& map) {
+  return median_of_sides(map, [](double along, double across) { return std::max(along, across); });
+}
+
+double outline_cell(const corner_point::ColumnMap& map) {
+  constexpr double kMost = 1.5;
+  const double shorter =
+      median_of_sides(map, [](double along, double across) { return std::min(along, across); });
+  return std::min(median_cell(map), kMost * shorter);
 }
 
 double mean_thickness(const corner_point::GridStructure& structure) {

@@ -8,6 +8,10 @@ namespace faultsim::grid_scene {
 /// The longer side of the grid's cells: the median over active columns, m.
 double median_cell(const corner_point::ColumnMap& map);
 
+/// The size of cells for outlines, m: the same, but at most one and a half of their shorter side.
+/// Half of a long cell would smooth the ends of a narrow map away.
+double outline_cell(const corner_point::ColumnMap& map);
+
 /// Of the reservoir, m: that of the compartments, weighted by their areas.
 double mean_thickness(const corner_point::GridStructure& structure);
 

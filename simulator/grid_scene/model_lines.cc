@@ -78,7 +78,7 @@ class LineMaker {
 
   ModelLines make() {
     lines_.reference_z = structure_.reference_z;
-    lines_.outlines = active_outlines(map_, cell_, lines_.reference_z, remarks_);
+    lines_.outlines = active_outlines(map_, outline_cell(map_), lines_.reference_z, remarks_);
     if (lines_.outlines.empty())
       throw InputError("the flow grid", "its active map is nowhere two columns wide",
                        "give the grid of the field, not that of a section");

@@ -203,6 +203,30 @@ std::optional<std::size_t> corner_to_drop(const Polyline& line, double shortest)
   return std::nullopt;
 }
 
+/// Warns where more than a few active columns lie outside of the outlines.
+void say_outside(const ColumnMap& map, const std::vector<Polyline>& outlines, double reference_z,
+                 Remarks& remarks) {
+  constexpr double kFew = 0.03;
+  const CornerPointGrid& grid = map.grid();
+  int n_active = 0, n_outside = 0;
+  for (int column = 0; column < grid.n_columns(); ++column) {
+    if (!grid.has_active_cell(column)) continue;
+    Vector2d middle(0, 0);
+    for (const bool right : {false, true}) {
+      for (const bool back : {false, true})
+        middle += place_of(map, grid.pillar_of(column, {right, back}), reference_z) / 4;
+    }
+    n_active += 1;
+    n_outside += is_within(outlines, middle) ? 0 : 1;
+  }
+  if (n_outside <= kFew * n_active) return;
+  remarks.push_back({RemarkKind::warning,
+                     concat(n_outside, " of ", counted(n_active, "active column", "active columns"),
+                            " lie outside of the outline: their pressures count with the "
+                            "compartment that is nearest"),
+                     "/geometry/dividers"});
+}
+
 }  // namespace
 
 std::vector<Polyline> active_outlines(const ColumnMap& map, double cell, double reference_z,
@@ -235,6 +259,7 @@ std::vector<Polyline> active_outlines(const ColumnMap& map, double cell, double 
                 counted(mask.n_dropped, "column", "columns"), " that stick out, and takes in ",
                 counted(mask.n_filled, "inactive one", "inactive ones")),
          ""});
+  say_outside(map, outlines, reference_z, remarks);
   return outlines;
 }
 

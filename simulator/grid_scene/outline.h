@@ -9,8 +9,9 @@ namespace faultsim::grid_scene {
 /// the active columns to the left (on the map); those around holes as well. No middle of an edge of
 /// the grid is farther from them than half a cell, but where corners would be sharper than 50
 /// degrees or pieces shorter than a cell. Columns that stick out alone, and holes and parts of a
-/// few columns, are smoothed away; how many is appended to remarks.
-/// @param cell         m, a cell of the grid.
+/// few columns, are smoothed away; how many is appended to remarks, with a warning where more than
+/// three of a hundred active columns lie outside.
+/// @param cell         m, a cell of the grid: outline_cell().
 /// @param reference_z  m, for pillars where nothing is active.
 std::vector<Polyline> active_outlines(const corner_point::ColumnMap& map, double cell,
                                       double reference_z, Remarks& remarks);

@@ -469,6 +469,30 @@ TEST(GridScene, PartsARectangleAwayFromLinesOnFromTips) {
   EXPECT_EQ(first_misfit(all.made.lines), std::nullopt);
 }
 
+/// Cells eight times as long as wide: half a cell is half of the side across the outline.
+TEST(Outline, HoldsTheColumnsOfLongNarrowCells) {
+  const MadeScene all =
+      scene_of(made({.size = {5, 20, 2}, .dx = 50, .dy = 400, .thickness = {20, 20}}));
+  ASSERT_EQ(all.made.lines.outlines.size(), 1u);
+  double area = 0;
+  const Polyline& outline = all.made.lines.outlines[0];
+  for (std::size_t k = 0; k < outline.size(); ++k)
+    area += cross_product(outline[k], outline[(k + 1) % outline.size()]) / 2;
+  EXPECT_NEAR(area, 250 * 8000, 0.05 * 250 * 8000);
+  EXPECT_FALSE(says(all.made.remarks, "outside of the outline"));
+}
+
+TEST(Outline, SaysHowManyColumnsItLeavesOut) {
+  MadeGrid plan{.size = {16, 8, 2}, .thickness = {20, 20}};
+  for (int j = 0; j < 8; ++j) {
+    plan.inactive.push_back({12, j, -1});
+    plan.inactive.push_back({13, j, -1});
+    if (j < 4) plan.inactive.insert(plan.inactive.end(), {{14, j, -1}, {15, j, -1}});
+  }
+  EXPECT_TRUE(says(scene_of(made(plan)).made.remarks,
+                   "8 of 104 active columns lie outside of the outline"));
+}
+
 TEST(GridPictures, SayWhatWasRecognised) {
   const MadeScene all = scene_of(made(grid_of_a_fault(0.5)));
   const std::string map = map_picture(all.structure, all.made);
