@@ -6,7 +6,6 @@
 
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
-#include "simulator/corner_point/column_map.h"
 #include "simulator/corner_point/fault_description.h"
 #include "simulator/corner_point/straight_trace.h"
 
@@ -74,9 +73,9 @@ std::vector<double> means_along(const std::vector<FaultPillar>& pillars, double 
 
 }  // namespace
 
-std::vector<FaultPillar> fault_pillars(const corner_point::CornerPointGrid& grid,
+std::vector<FaultPillar> fault_pillars(const corner_point::ColumnMap& map,
                                        const corner_point::Fault& fault, double reference_z) {
-  const corner_point::ColumnMap map(grid);
+  const corner_point::CornerPointGrid& grid = map.grid();
   const std::vector<int> numbers = corner_point::pillars_of(fault);
   std::vector<FaultPillar> pillars;
   for (std::size_t p = 0; p < numbers.size(); ++p) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "simulator/corner_point/column_map.h"
 #include "simulator/grid_scene/model_lines.h"
 
 /// How the faults of a model dip, by the pillars of the grid that they were drawn from.
@@ -18,7 +19,7 @@ struct FaultPillar {
 };
 
 /// The pillars of a fault of the structure, in order.
-std::vector<FaultPillar> fault_pillars(const corner_point::CornerPointGrid& grid,
+std::vector<FaultPillar> fault_pillars(const corner_point::ColumnMap& map,
                                        const corner_point::Fault& fault, double reference_z);
 
 /// Dips along a fault: the mean lean of the pillars near each place, by a bell of half-width

@@ -73,7 +73,7 @@ class LineMaker {
         cell_(median_cell(map_)),
         reach_(structure.faults.size(), 0) {
     for (const Fault& fault : structure.faults)
-      pillars_.push_back(fault_pillars(grid, fault, structure.reference_z));
+      pillars_.push_back(fault_pillars(map_, fault, structure.reference_z));
   }
 
   ModelLines make() {

@@ -113,7 +113,8 @@ TEST(FaultDips, OfAGridThatTurnsFollowItsPillars) {
   const MadeScene all = scene_of(turning_grid(0.2, 1));
   ASSERT_EQ(all.made.lines.faults.size(), 1u);
   const ModelFault& fault = all.made.lines.faults[0];
-  const auto pillars = fault_pillars(all.grid, all.structure.faults[0], all.made.lines.reference_z);
+  const auto pillars = fault_pillars(corner_point::ColumnMap(all.grid), all.structure.faults[0],
+                                     all.made.lines.reference_z);
   // The trace comes from the west, where it lies furthest at the reference height.
   const bool runs_north = fault.trace.back().y() > fault.trace.front().y();
   const double south = runs_north ? fault.leans.front() : -fault.leans.back();
