@@ -14,9 +14,10 @@ namespace {
 struct Sums {
   double flow_grid = 0, mapped = 0, size = 0;
 
+  static constexpr double kMost = 0.5;  ///< of |κ|.
+
   /// κ.
   double scaling() const {
-    constexpr double kMost = 0.5;
     return size > 0 ? std::clamp((flow_grid - mapped) / size, -kMost, kMost) : 0;
   }
   /// What scaling leaves: changes where our cells have next to none.
@@ -61,10 +62,49 @@ double volume_of_theirs(const FlowMapping& mapping, std::size_t region) {
   return volume;
 }
 
+/// The largest change of any flow cell, Pa (or K).
+double largest_change(const FlowField& field, int reference, const std::vector<int>& reports) {
+  double largest = 0;
+  for (const int report : reports) {
+    for (int f = 0; f < std::ssize(field.cells); ++f)
+      largest = std::max(largest, std::abs(field.value(f, report) - field.value(f, reference)));
+  }
+  return largest;
+}
+
+/// Of what differs by `off` where our cells have `size`; more than kMany times it is no number.
+std::string times_text(double off, double size) {
+  constexpr double kMany = 1000;
+  return off > kMany * size ? formatted("more than %.0f", kMany) : formatted("%.3g", off / size);
+}
+
+/// What is said of a compartment whose integrals are not those of one field.
+Problem integral_misfit(const FlowMapping& mapping, std::size_t region, const std::string& name,
+                        double off, double size) {
+  if (mapping.flow_cells[region].empty()) {
+    return {"", 0,
+            "no flow cell counts with " + name +
+                ", which takes changes from beside it: no integral can be kept",
+            "leave \"integral\" out, or write \"outside\": \"unchanged\""};
+  }
+  return {
+      "", 0,
+      formatted("the integrals of its change over %s and over the flow cells that count with it "
+                "differ by up to %s times the former; it has %.3g m3, they %.3g m3",
+                name.c_str(), times_text(off, size).c_str(), volumes_of_ours(mapping)[region],
+                volume_of_theirs(mapping, region)),
+      "check where the compartment lies and how thick its layers are; with \"integral\": "
+      "\"flow_grid\", flow cells far from it count with it too: leave that out where the model "
+      "is only part of the field"};
+}
+
+/// @param negligible  Pa (or K): what may be spread over a compartment whose cells hardly change.
 /// @throws InputError for all compartments whose integrals are not those of one field.
 std::vector<IntegralBalance> balances(const FlowMapping& mapping,
                                       const std::vector<std::vector<Sums>>& of_report,
-                                      const std::vector<std::string>& region_names) {
+                                      const std::vector<std::string>& region_names,
+                                      double negligible) {
+  const std::vector<double> volume = volumes_of_ours(mapping);
   std::vector<IntegralBalance> balance;
   std::vector<Problem> problems;
   for (std::size_t r = 0; !of_report.empty() && r < of_report.back().size(); ++r) {
@@ -76,25 +116,9 @@ std::vector<IntegralBalance> balances(const FlowMapping& mapping,
     const Sums& last = of_report.back()[r];
     balance.push_back({.flow_grid = last.flow_grid,
                        .mapped = last.mapped,
-                       .largest_scaling = size > 0 ? off / size : 0});
-    if (off <= 0.5 * size || off == 0) continue;
-    const bool has_none = mapping.flow_cells[r].empty();
-    if (has_none) {
-      problems.push_back({"", 0,
-                          "no flow cell counts with " + region_names[r] +
-                              ", which takes changes from beside it: no integral can be kept",
-                          "leave \"integral\" out, or write \"outside\": \"unchanged\""});
-      continue;
-    }
-    problems.push_back(
-        {"", 0,
-         formatted("the integrals of its change over %s and over the flow cells that count with it "
-                   "differ by up to %.3g times the former; it has %.3g m3, they %.3g m3",
-                   region_names[r].c_str(), off / size, volumes_of_ours(mapping)[r],
-                   volume_of_theirs(mapping, r)),
-         "check where the compartment lies and how thick its layers are; with \"integral\": "
-         "\"flow_grid\", flow cells far from it count with it too: leave that out where the model "
-         "is only part of the field"});
+                       .largest_scaling = size > 0 ? std::min(Sums::kMost, off / size) : 0});
+    if (off > Sums::kMost * size && off > negligible * volume[r])
+      problems.push_back(integral_misfit(mapping, r, region_names[r], off, size));
   }
   if (!problems.empty()) throw InputError("flow field", problems);
   return balance;
@@ -152,7 +176,9 @@ std::vector<IntegralBalance> keep_integrals(const FlowMapping& mapping, const Fl
   for (std::size_t t = 0; t < reports.size(); ++t)
     of_report.push_back(
         sums_at(mapping, field, reference, reports[t], change.col(static_cast<Eigen::Index>(t))));
-  const std::vector<IntegralBalance> balance = balances(mapping, of_report, region_names);
+  constexpr double kNegligible = 1e-3;
+  const std::vector<IntegralBalance> balance = balances(
+      mapping, of_report, region_names, kNegligible * largest_change(field, reference, reports));
   const std::vector<double> volume = volumes_of_ours(mapping);
   for (std::size_t t = 0; t < reports.size(); ++t) {
     for (std::size_t c = 0; c < mapping.part.size(); ++c) {

@@ -32,10 +32,13 @@ struct IntegralBalance {
 ///
 /// so that their integral is that of the flow cells that count with it, to rounding: what does not
 /// change still does not, and no sign changes. Where that wants |κ| > 1/2 (a report at which only
-/// flow cells beside the compartment have changed) the rest is spread evenly over its volume.
+/// flow cells beside the compartment have changed) the rest is spread evenly over its volume. So is
+/// what is left of changes of a compartment that are tiny against the field's, whatever κ they
+/// want.
 /// @param change  of mapped_change() with the same arguments.
-/// @throws InputError where the largest_scaling would be above 1/2, with the compartment: the grids
-/// do not belong together.
+/// @throws InputError where the largest_scaling would be above 1/2 and the difference is more than
+/// a thousandth of the field's largest change all over the compartment, with the compartment: the
+/// grids do not belong together.
 std::vector<IntegralBalance> keep_integrals(const FlowMapping& mapping, const FlowField& field,
                                             int reference, const std::vector<int>& reports,
                                             const std::vector<std::string>& region_names,

@@ -190,6 +190,29 @@ TEST(WholeCells, KeepWhatHappensBesideTheModelOnly) {
   EXPECT_EQ(integrals(field, cells, 1, change.col(1), 1).ours, 0);
 }
 
+/// In the west one flow cell changes, beside the model; against what happens in the east that is
+/// nothing.
+TEST(WholeCells, TakeATinyChangeBesideAQuietCompartment) {
+  FlowField field = two_reservoirs();
+  std::vector<MappedCell> cells = model();
+  std::erase_if(cells, [](const MappedCell& cell) { return cell.corners[0].x() < 100; });
+  const auto of_change = [&](double pressure) {
+    for (int f = 0; f < 40; ++f)
+      for (int t = 1; t < 3; ++t) field.value(f, t) = f % 10 < 5 ? 3e7 : 2e7;
+    field.value(0, 1) = field.value(0, 2) = 3e7 - pressure;
+    const FlowMapping mapping = map_flow(field, cells, kSides, kWhole);
+    Eigen::MatrixXd change = mapped_change(mapping, field, 0);
+    EXPECT_EQ(integrals(field, cells, 0, change.col(2), 2).own_size, 0);
+    EXPECT_EQ(keep_integrals(mapping, field, 0, {0, 1, 2}, kSides, change)[0].largest_scaling, 0);
+    const Integrals sums = integrals(field, cells, 0, change.col(2), 2);
+    EXPECT_NEAR(sums.ours, sums.flow, 1e-13 * sums.size);
+    EXPECT_LT(sums.flow, 0);
+  };
+  of_change(1e3);
+  EXPECT_THAT(([&] { of_change(5e6); }),
+              ThrowsMessage<InputError>(HasSubstr("by up to more than 1000 times the former")));
+}
+
 TEST(WholeCells, RefuseGridsThatDoNotBelongTogether) {
   const FlowField field = two_reservoirs();
   std::vector<MappedCell> cells = model();
