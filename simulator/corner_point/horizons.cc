@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace faultsim::corner_point {
 namespace {
@@ -22,11 +23,30 @@ std::array<int, 4> sides_around(const ColumnMap& map, const std::set<int>& barri
   return side;
 }
 
+/// Per cell, the compartment of the column's next active cell, upwards first; −1 where there is
+/// none. Each column is gone down once.
+std::vector<int> next_compartments(const CornerPointGrid& grid, const std::vector<int>& of_cell) {
+  std::vector<int> next(of_cell.size(), -1), active;  // active: layers of one column
+  for (int column = 0; column < grid.n_columns(); ++column) {
+    active.clear();
+    for (int k = 0; k < grid.size[2]; ++k) {
+      if (of_cell[grid.cell(column, k)] >= 0) active.push_back(k);
+    }
+    if (active.empty()) continue;
+    auto at = active.begin();
+    for (int k = 0; k < grid.size[2]; ++k) {
+      while (at + 1 != active.end() && *(at + 1) - k < std::abs(*at - k)) ++at;
+      next[grid.cell(column, k)] = of_cell[grid.cell(column, *at)];
+    }
+  }
+  return next;
+}
+
 class HorizonFinder {
  public:
   HorizonFinder(const ColumnMap& map, const std::set<int>& barriers,
                 const std::vector<int>& compartment_of_cell)
-      : map_(map), grid_(map.grid()), of_cell_(compartment_of_cell) {
+      : map_(map), grid_(map.grid()), next_(next_compartments(grid_, compartment_of_cell)) {
     for (int pillar = 0; pillar < map.n_pillars(); ++pillar)
       sides_.push_back(sides_around(map, barriers, pillar));
   }
@@ -40,7 +60,7 @@ class HorizonFinder {
   double largest_gap_below(int k) const {
     double largest = 0;
     for (int column = 0; column < grid_.n_columns(); ++column) {
-      if (!grid_.has_active_cell(column)) continue;
+      if (compartment_at(column, k) < 0) continue;
       for (const CornerPlace& top : kTopCorners) {
         const double bottom = grid_.z(column, k, {top.right, top.back, true});
         largest = std::max(largest, std::abs(bottom - grid_.z(column, k + 1, top)));
@@ -50,17 +70,8 @@ class HorizonFinder {
   }
 
  private:
-  /// Of the column's next active cell, upwards first.
-  int compartment_at(int column, int k) const {
-    for (int away = 0; away < grid_.size[2]; ++away) {
-      for (const int layer : {k - away, k + away}) {
-        if (layer < 0 || layer >= grid_.size[2]) continue;
-        const int compartment = of_cell_[grid_.cell(column, layer)];
-        if (compartment >= 0) return compartment;
-      }
-    }
-    return -1;
-  }
+  /// Of a column in a layer; −1: the column has no active cell.
+  int compartment_at(int column, int k) const { return next_[grid_.cell(column, k)]; }
 
   /// Corners of columns on one side that are of one compartment.
   struct Group {
@@ -80,8 +91,8 @@ class HorizonFinder {
     std::array<Group, 4> groups;  // those behind the last are empty
     for (int c = 0; c < 4; ++c) {
       const int side = sides_[pillar][c];
-      if (side < 0 || !grid_.has_active_cell(columns[c])) continue;
-      const int compartment = compartment_at(columns[c], horizon.layer);
+      const int compartment = side < 0 ? -1 : compartment_at(columns[c], horizon.layer);
+      if (compartment < 0) continue;
       Group& group = *std::ranges::find_if(groups, [&](const Group& of) {
         return of.n == 0 || (of.side == side && of.compartment == compartment);
       });
@@ -102,7 +113,7 @@ class HorizonFinder {
 
   const ColumnMap& map_;
   const CornerPointGrid& grid_;
-  const std::vector<int>& of_cell_;
+  std::vector<int> next_;                  ///< per cell, next_compartments().
   std::vector<std::array<int, 4>> sides_;  ///< per pillar.
 };
 
@@ -124,13 +135,16 @@ Horizons find_horizons(const ColumnMap& map, const std::set<int>& barriers,
 
 std::vector<Layer> find_layers(const ColumnMap& map, double no_thickness) {
   const CornerPointGrid& grid = map.grid();
+  std::vector<char> is_active_column;
+  for (int column = 0; column < grid.n_columns(); ++column)
+    is_active_column.push_back(grid.has_active_cell(column) ? 1 : 0);
   std::vector<Layer> layers;
   for (int k = 0; k < grid.size[2]; ++k) {
     Layer layer{.is_collapsed = true};
     for (int column = 0; column < grid.n_columns(); ++column) {
       const bool is_thin = grid.largest_thickness(column, k) < no_thickness;
       layer.n_collapsed += is_thin ? 1 : 0;
-      if (!grid.has_active_cell(column)) continue;
+      if (is_active_column[column] == 0) continue;
       layer.is_collapsed = layer.is_collapsed && is_thin;
       const bool is_active = grid.is_active[grid.cell(column, k)] != 0;
       (is_active ? layer.n_active : layer.n_inactive) += 1;

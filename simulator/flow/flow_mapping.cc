@@ -63,8 +63,7 @@ void take_means(const MappedCell& cell, std::size_t c, FlowMapping& mapping) {
 void divide_flow_cells(const FlowField& field, const std::vector<MappedCell>& cells,
                        const std::array<double, 2>& y_range, FlowMapping& mapping) {
   if (cells.empty()) return;
-  const std::vector<int> owner =
-      compartments_of_flow_cells(field, cells, mapping.weights, mapping.coverage.size());
+  const std::vector<int> owner = compartments_of_flow_cells(field, cells, mapping.weights);
   mapping.flow_cells.resize(mapping.coverage.size());
   for (std::size_t f = 0; f < owner.size(); ++f) {
     const double volume = volume_between(field.cells[f], y_range);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "simulator/common/errors.h"
 #include "simulator/common/text.h"
@@ -133,28 +134,57 @@ CellCorners corners_of_box(const Eigen::Vector3d& low, const Eigen::Vector3d& hi
   return corners;
 }
 
+/// What a compartment holds of a flow cell, m3.
+struct Held {
+  int flow_cell = -1, region = -1;
+  double volume = 0;
+
+  std::pair<int, int> key() const { return {flow_cell, region}; }
+};
+
+/// By flow cell, then compartment, each pair once: memory goes with the overlaps there are, not
+/// with compartments times flow cells.
+std::vector<Held> held_volumes(const std::vector<MappedCell>& cells,
+                               const std::vector<std::vector<FlowMapping::Weight>>& overlaps) {
+  std::vector<Held> held;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    for (const FlowMapping::Weight& overlap : overlaps[c])
+      held.push_back({overlap.flow_cell, cells[c].region, cells[c].fraction * overlap.value});
+  }
+  std::ranges::stable_sort(held, {}, &Held::key);  // stable: sums in the order of our cells
+  std::size_t n = 0;
+  for (const Held& one : held) {
+    if (n > 0 && held[n - 1].key() == one.key())
+      held[n - 1].volume += one.volume;
+    else
+      held[n++] = one;
+  }
+  held.resize(n);
+  return held;
+}
+
 }  // namespace
 
 std::vector<int> compartments_of_flow_cells(
     const FlowField& field, const std::vector<MappedCell>& cells,
-    const std::vector<std::vector<FlowMapping::Weight>>& overlaps, std::size_t n_regions) {
-  Eigen::MatrixXd held =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(n_regions), std::ssize(field.cells));
-  for (std::size_t c = 0; c < cells.size(); ++c) {
-    for (const FlowMapping::Weight& overlap : overlaps[c])
-      held(cells[c].region, overlap.flow_cell) += cells[c].fraction * overlap.value;
-  }
+    const std::vector<std::vector<FlowMapping::Weight>>& overlaps) {
   std::vector<FlowCell> ours;
   for (const MappedCell& cell : cells) ours.push_back(flow_cell_around(cell.corners));
   const FlowCellSearch search(ours);
+  const std::vector<Held> held = held_volumes(cells, overlaps);
+  auto next = held.begin();
   std::vector<int> compartments;
-  for (Eigen::Index f = 0; f < held.cols(); ++f) {
-    int most = 0;
-    if (held.col(f).maxCoeff(&most) <= 0) {
-      const FlowCell& cell = field.cells[static_cast<std::size_t>(f)];
-      most = cells[static_cast<std::size_t>(search.nearest((cell.low + cell.high) / 2))].region;
+  for (int f = 0; f < std::ssize(field.cells); ++f) {
+    Held most;
+    for (; next != held.end() && next->flow_cell == f; ++next) {
+      if (next->volume > most.volume) most = *next;
     }
-    compartments.push_back(most);
+    if (most.volume <= 0) {
+      const FlowCell& cell = field.cells[static_cast<std::size_t>(f)];
+      most.region =
+          cells[static_cast<std::size_t>(search.nearest((cell.low + cell.high) / 2))].region;
+    }
+    compartments.push_back(most.region);
   }
   return compartments;
 }

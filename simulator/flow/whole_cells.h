@@ -13,7 +13,7 @@ namespace faultsim {
 /// @param overlaps  per cell of ours, V(c ∩ f), m3.
 std::vector<int> compartments_of_flow_cells(
     const FlowField& field, const std::vector<MappedCell>& cells,
-    const std::vector<std::vector<FlowMapping::Weight>>& overlaps, std::size_t n_regions);
+    const std::vector<std::vector<FlowMapping::Weight>>& overlaps);
 
 /// Volume of the part of a flow cell within from <= y <= to, m3.
 double volume_between(const FlowCell& cell, const std::array<double, 2>& y_range);

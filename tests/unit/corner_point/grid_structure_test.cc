@@ -486,6 +486,25 @@ TEST(GridStructure, HasCompartmentsByRegionOnRequest) {
   EXPECT_EQ(found.horizons[1].points[0].compartment, 0);
 }
 
+/// Layers 0, 2 and 5 of six are active and of a region each.
+TEST(GridStructure, InactiveLayersAreOfTheNextActiveOnesUpwardsFirst) {
+  MadeGrid spec{.size = {4, 3, 6}, .thickness = {10, 10, 10, 10, 10, 10}};
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 4; ++i)
+      for (const int k : {1, 3, 4}) spec.inactive.push_back({i, j, k});
+  }
+  CornerPointGrid grid = made(spec);
+  for (int cell = 0; cell < grid.n_cells(); ++cell)
+    grid.fluid_region.push_back(cell / grid.n_columns());
+  const GridStructure found =
+      recognise_structure(grid, {.compartments = CompartmentRule::fluid_regions});
+  ASSERT_EQ(found.compartments.size(), 3u);
+  std::vector<int> compartments;
+  for (const Horizon& horizon : found.horizons)
+    compartments.push_back(horizon.points[0].compartment);
+  EXPECT_THAT(compartments, testing::ElementsAre(0, 0, 1, 1, 2, 2, 2));
+}
+
 CornerPointGrid with_a_ring() {
   CornerPointGrid grid = made({});
   for (int j = 5; j < 9; ++j) {

@@ -149,6 +149,22 @@ TEST(WholeCells, CountWhereTheyLieMostlyElseWithTheNearest) {
   EXPECT_TRUE(map_flow(field, cells, kSides, {}).flow_cells.empty());
 }
 
+/// Whatever their numbers: a table of compartments by flow cells would not fit in any memory.
+TEST(WholeCells, CountWithTheFirstOfCompartmentsThatHoldAsMuch) {
+  FlowField field = two_reservoirs();
+  field.cells.resize(4);
+  std::vector<MappedCell> cells = model();
+  cells.resize(4);
+  cells[0].region = 2'000'000'000;
+  cells[1].region = 7;
+  cells[2].region = cells[3].region = 8;
+  cells[2].fraction = cells[3].fraction = 0.5;
+  const std::vector<std::vector<FlowMapping::Weight>> overlaps = {
+      {{0, 5}, {1, 5}, {3, 1}}, {{0, 5}, {1, 4}}, {{1, 4}, {3, 4}}, {{1, 8}}};
+  const std::vector<int> owner = compartments_of_flow_cells(field, cells, overlaps);
+  EXPECT_THAT(owner, testing::ElementsAre(7, 8, 8, 8));
+}
+
 /// Half of a domain has half of the integral, a section that of a metre.
 TEST(WholeCells, CountAsFarAsTheyAreModelled) {
   FlowField field = two_reservoirs();
