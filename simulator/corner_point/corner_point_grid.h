@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,8 @@ struct CornerPointGrid {
   std::vector<char> is_active;          ///< ni nj nk.
   std::vector<int> equilibrium_region;  ///< EQLNUM, ni nj nk, 0 in inactive cells; or none.
   std::vector<int> fluid_region;        ///< FIPNUM, likewise.
+  /// By EQLNUM or FIPNUM: why the one of a file is none here, "EQLNUM of the INIT file has ...".
+  std::map<std::string, std::string> region_misfits;
   std::vector<std::array<int, 2>> connections;  ///< between cells that are no neighbours (NNC).
   std::vector<std::string> remarks;  ///< what was decided in reading it: units, place on the map.
 

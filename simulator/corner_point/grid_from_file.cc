@@ -155,13 +155,14 @@ class GridMaker {
     }
   }
 
-  /// INIT has a number for each active cell.
+  /// INIT has a number for each active cell. One of another grid matters only to who asks for it.
   std::vector<int> of_all_cells(const std::vector<int>& of_active, const std::string& name) {
     if (of_active.empty()) return {};
     if (std::ssize(of_active) != n_active_) {
-      refuse(concat(name, " of the INIT file has ", of_active.size(), " numbers, but the grid has ",
-                    n_active_, " active cells"),
-             "keep the files of one run together");
+      const std::string misfit = concat(name, " of the INIT file has ", of_active.size(),
+                                        " numbers, but the grid has ", n_active_, " active cells");
+      grid_.region_misfits[name] = misfit;
+      grid_.remarks.push_back(misfit + ": it is left out");
       return {};
     }
     std::vector<int> all(grid_.is_active.size(), 0);

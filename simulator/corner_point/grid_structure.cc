@@ -18,6 +18,18 @@
 namespace faultsim::corner_point {
 namespace {
 
+/// Of regions that are asked for.
+void check_region(const CornerPointGrid& grid, const std::string& name,
+                  const std::vector<int>& region, std::vector<Problem>& problems) {
+  if (!region.empty()) return;
+  const auto misfit = grid.region_misfits.find(name);
+  const bool is_there = misfit != grid.region_misfits.end();
+  problems.push_back(
+      {"/compartments", 0, is_there ? misfit->second : name + " is missing",
+       concat(is_there ? "keep the files of one run together" : "put the INIT file beside the grid",
+              ", or let the faults bound compartments")});
+}
+
 void check_options(const CornerPointGrid& grid, const StructureOptions& options) {
   std::vector<Problem> problems;
   const auto need = [&](bool holds, const char* name, const auto& value, const char* what,
@@ -34,12 +46,10 @@ void check_options(const CornerPointGrid& grid, const StructureOptions& options)
        "write half a cell, 0.5");
   need(options.no_thickness >= 0, "no_thickness", options.no_thickness, " m is negative",
        "write 0 or more");
-  const bool lacks_equilibrium = options.compartments == CompartmentRule::equilibrium_regions &&
-                                 grid.equilibrium_region.empty();
-  const bool lacks_fluid =
-      options.compartments == CompartmentRule::fluid_regions && grid.fluid_region.empty();
-  need(!lacks_equilibrium && !lacks_fluid, "compartments", lacks_fluid ? "FIPNUM" : "EQLNUM",
-       " is missing", "put the INIT file beside the grid, or let the faults bound compartments");
+  if (options.compartments == CompartmentRule::equilibrium_regions)
+    check_region(grid, "EQLNUM", grid.equilibrium_region, problems);
+  if (options.compartments == CompartmentRule::fluid_regions)
+    check_region(grid, "FIPNUM", grid.fluid_region, problems);
   if (!problems.empty()) throw InputError("options of the grid's structure", problems);
 }
 

@@ -12,8 +12,9 @@ namespace {
 using Opm::EclIO::EclFile;
 using Opm::EclIO::EGrid;
 
-/// Places from 0: the unit in INTEHEAD; the number of coordinate systems in GRIDHEAD.
-constexpr std::size_t kUnitSystem = 2, kCoordinateSystems = 24;
+/// Places from 0: the unit in INTEHEAD; the number of coordinate systems in GRIDHEAD; in FILEHEAD
+/// whether cells have one porosity (0), two (1), or two that both flow (2).
+constexpr std::size_t kUnitSystem = 2, kCoordinateSystems = 24, kPorosities = 5;
 
 template <typename T>
 std::vector<T> array_of(EclFile& file, const std::string& name) {
@@ -54,6 +55,7 @@ class EclipseGridReader : EclipseProblems {
     const std::vector<int> head = array_of<int>(file, "GRIDHEAD");
     if (head.size() > kCoordinateSystems && head[kCoordinateSystems] > 1)
       refuse(files_.grid, "has several coordinate systems", "use a grid with one (NUMRES)");
+    refuse_two_porosities(array_of<int>(file, "FILEHEAD"));
     if (!problems_.empty()) return;
     grid_.size = file.dimension();
     grid_.coord = array_of<float>(file, "COORD");
@@ -66,6 +68,16 @@ class EclipseGridReader : EclipseProblems {
     const std::vector<std::string> map_unit = array_of<std::string>(file, "MAPUNITS");
     if (!map_unit.empty()) grid_.map_unit = trimmed(map_unit[0]);
     take_connections(array_of<int>(file, "NNC1"), array_of<int>(file, "NNC2"));
+  }
+
+  /// Their arrays have all values of the matrix, then all of the fractures, and ACTNUM says which
+  /// of both a cell has.
+  void refuse_two_porosities(const std::vector<int>& head) {
+    if (head.size() <= kPorosities || head[kPorosities] == 0) return;
+    refuse(files_.grid,
+           head[kPorosities] == 1 ? "is a dual porosity grid" : "is a dual permeability grid",
+           "write the grid from a model of the same cells without DUALPORO and DUALPERM, and give "
+           "the pressures that act on the rock as a table of cells (docs/your-field.md)");
   }
 
   void take_connections(const std::vector<int>& one, const std::vector<int>& other) {

@@ -32,8 +32,8 @@ struct EclipseGrid {
 /// Reads CASE.EGRID and, where they are, CASE.INIT and the head of the first restart file.
 /// @param path  any of the files, or their name without ending (eclipse_files.h).
 /// @throws InputError with all that is wrong: a grid that is missing or cut off, local grid
-/// refinements, a radial grid, several coordinate systems; and where this program was built without
-/// opm-common (reads_eclipse in eclipse_result.h).
+/// refinements, a radial grid, several coordinate systems, dual porosity or permeability; and where
+/// this program was built without opm-common (reads_eclipse in eclipse_result.h).
 EclipseGrid read_eclipse_grid(const std::filesystem::path& path);
 
 /// What a unit of length of the file is, and how that was decided.

@@ -153,24 +153,42 @@ TEST(CornerPointGrid, HasRegionsOfItsActiveCells) {
   EXPECT_EQ(grid.fluid_region[89], 86);
 }
 
+/// Regions of an INIT file of another run are refused to who asks for them, and to nobody else.
+TEST(CornerPointGrid, LeavesRegionsOfAnotherGridOut) {
+  EclipseGrid file = as_file(made(small()), 1);
+  file.length_unit = "METRES";
+  file.equilibrium_region = {1, 2};
+  const CornerPointGrid grid = corner_point_grid(file, "CASE.EGRID");
+  EXPECT_TRUE(grid.equilibrium_region.empty());
+  const std::string misfit =
+      "EQLNUM of the INIT file has 2 numbers, but the grid has 86 active cells";
+  EXPECT_THAT(grid.remarks, testing::ElementsAre(misfit + ": it is left out"));
+  EXPECT_EQ(recognise_structure(grid, {}).faults.size(), 1u);
+  const auto with = [&](CompartmentRule rule) {
+    recognise_structure(grid, {.compartments = rule});
+  };
+  EXPECT_THAT(
+      [&] { with(CompartmentRule::equilibrium_regions); },
+      ThrowsMessage<InputError>(HasSubstr(misfit + "; keep the files of one run together")));
+  EXPECT_THAT([&] { with(CompartmentRule::fluid_regions); },
+              ThrowsMessage<InputError>(HasSubstr("FIPNUM is missing; put the INIT file")));
+}
+
 TEST(CornerPointGrid, IsRefusedWithAllThatIsWrong) {
   EclipseGrid file = as_file(made(small()), 1);
   file.coord[7] = std::numeric_limits<float>::quiet_NaN();
   file.zcorn[5] = std::numeric_limits<float>::infinity();
   file.length_unit = "YARDS";
   file.map_axes = {0, 0, 0, 0, 1, 0};
-  file.equilibrium_region = {1, 2};
   file.connections = {{0, 90}};
   try {
     corner_point_grid(file, "CASE.EGRID");
     FAIL();
   } catch (const InputError& error) {
-    EXPECT_EQ(error.problems().size(), 6u);
+    EXPECT_EQ(error.problems().size(), 5u);
     EXPECT_THAT(error.what(), HasSubstr("GRIDUNIT says \"YARDS\"; METRES, FEET and CM are known"));
     EXPECT_THAT(error.what(), HasSubstr("1 pillar has a coordinate that is not a number, the first "
                                         "at i = 2, j = 1"));
-    EXPECT_THAT(error.what(),
-                HasSubstr("EQLNUM of the INIT file has 2 numbers, but the grid has 86"));
     EXPECT_THAT(error.what(), HasSubstr("connect cells 1 and 91 of 90"));
     EXPECT_THAT(error.what(), HasSubstr("ZCORN: 1 depth is not a number"));
     EXPECT_THAT(error.what(), HasSubstr("not at right angles"));

@@ -27,11 +27,13 @@ class EclipseGridFile : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void write_grid(int n_systems = 1, bool has_refinement = false, bool is_radial = false) const {
+  void write_grid(int n_systems = 1, bool has_refinement = false, bool is_radial = false,
+                  int porosities = 0) const {
     EclOutput out((folder_ / "CASE.EGRID").string(), false);
     std::vector<int> filehead(100, 0), gridhead(100, 0);
     filehead[0] = 3;
     filehead[1] = 2007;
+    filehead[5] = porosities;
     gridhead[0] = 1;
     gridhead[1] = 2;
     gridhead[2] = gridhead[3] = 1;
@@ -125,6 +127,10 @@ TEST_F(EclipseGridFile, IsRefusedWithAllThatIsWrong) {
   expect_refused("has several coordinate systems");
   write_grid(1, false, true);
   expect_refused("is a radial grid");
+  write_grid(1, false, false, 1);
+  expect_refused("CASE.EGRID: is a dual porosity grid; write the grid from a model");
+  write_grid(1, false, false, 2);
+  expect_refused("is a dual permeability grid");
   write_grid();
   write_init();
   fs::resize_file(folder_ / "CASE.EGRID", 700);
