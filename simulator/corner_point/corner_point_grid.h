@@ -33,8 +33,8 @@ inline constexpr std::array<CornerPlace, 4> kTopCorners = {
 /// A corner-point grid: columns of cells between pillars, m, z up (negative below the datum), x and
 /// y on the map. i runs fastest, then j, then k, all from 0; k counts downwards. i and j may be
 /// left- or right-handed on the map.
-/// @invariant corner_point_grid() checks: sizes fit, all numbers finite, no cell of an active
-/// column has its bottom above its top.
+/// @invariant corner_point_grid() sees to it: sizes fit, all numbers finite, no cell of an active
+/// column has its bottom above its top (active ones are refused, inactive ones become flat).
 struct CornerPointGrid {
   std::array<int, 3> size = {0, 0, 0};  ///< cells along i, j, k, each ≥ 1.
   std::vector<Pillar> pillars;          ///< (ni + 1)(nj + 1).
@@ -77,7 +77,7 @@ struct CornerPointGrid {
 /// applied as read_eclipse does, unless coordinates are on the map already), z up.
 /// @param source  the name of the file, for messages.
 /// @throws InputError with all that is wrong: arrays whose sizes do not fit, numbers that are none,
-/// layers that lie upside down, axes that are not at right angles, no active cell.
+/// active cells that lie upside down, axes that are not at right angles, no active cell.
 CornerPointGrid corner_point_grid(const EclipseGrid& file, const std::string& source);
 
 /// read_eclipse_grid and the above.

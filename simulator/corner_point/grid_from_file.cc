@@ -4,6 +4,7 @@
 
 #include "simulator/common/errors.h"
 #include "simulator/common/ranges.h"
+#include "simulator/common/text.h"
 #include "simulator/corner_point/corner_point_grid.h"
 
 namespace faultsim::corner_point {
@@ -173,19 +174,48 @@ class GridMaker {
     return all;
   }
 
-  /// Layers count downwards, and no cell of an active column is inside out.
+  /// Layers count downwards, and no cell of an active column is inside out: active ones are
+  /// refused, the others become flat.
   void check_layers() {
-    int n_inverted = 0, first = -1;
+    int n_inverted = 0, first = -1, n_flattened = 0;
+    double most = 0;
     for (int column = 0; column < grid_.n_columns(); ++column) {
       if (!grid_.has_active_cell(column)) continue;
       for (int k = 0; k < grid_.size[2]; ++k) {
         if (!grid_.is_inverted(column, k)) continue;
-        if (n_inverted++ == 0) first = grid_.cell(column, k);
+        const int cell = grid_.cell(column, k);
+        if (grid_.is_active[cell] == 0) {
+          n_flattened += 1;
+          most = std::max(most, flatten(column, k));
+        } else if (n_inverted++ == 0) {
+          first = cell;
+        }
       }
     }
-    if (n_inverted == 0) return;
+    if (n_inverted > 0) refuse_inverted(n_inverted, first);
+    if (n_flattened == 0) return;
+    grid_.remarks.push_back(
+        concat(counted(n_flattened, "inactive cell has its bottom above its top",
+                       "inactive cells have their bottoms above their tops"),
+               formatted(", by up to %.3g m: the bottom was taken to lie at the top there", most)));
+  }
+
+  /// Puts corners of the bottom that lie above those of the top down to these. How far, m, at most.
+  double flatten(int column, int k) {
+    double most = 0;
+    for (const CornerPlace& top : kTopCorners) {
+      double& bottom = grid_.corner_z[grid_.corner_index(column, k, {top.right, top.back, true})];
+      const double down = bottom - grid_.z(column, k, top);
+      if (down <= 0) continue;
+      bottom = grid_.z(column, k, top);
+      most = std::max(most, down);
+    }
+    return most;
+  }
+
+  void refuse_inverted(int n, int first) {
     const std::array<int, 2> at = grid_.place(first % grid_.n_columns());
-    refuse(concat(counted(n_inverted, "cell has its bottom above its top",
+    refuse(concat(counted(n, "cell has its bottom above its top",
                           "cells have their bottoms above their tops"),
                   ", the first at i = ", at[0] + 1, ", j = ", at[1] + 1,
                   ", k = ", first / grid_.n_columns() + 1),

@@ -220,7 +220,30 @@ TEST(CornerPointGrid, IsRefusedWhereCellsAreInsideOut) {
   EXPECT_THAT(
       [&] { corner_point_grid(file, "CASE.EGRID"); },
       ThrowsMessage<InputError>(HasSubstr(
-          "87 cells have their bottoms above their tops, the first at i = 1, j = 1, k = 1")));
+          "86 cells have their bottoms above their tops, the first at i = 1, j = 1, k = 1")));
+}
+
+/// Cells that are no rock, as some programs export them.
+TEST(CornerPointGrid, FlattensInactiveCellsThatAreInsideOut) {
+  const CornerPointGrid own = made(small());  // cell 4, 4, 1 is inactive
+  const int column = own.column(4, 4), active = own.column(3, 3);
+  EclipseGrid file = as_file(own, 1);
+  file.length_unit = "METRES";
+  const CornerPlace top{true, false, false}, bottom{true, false, true};
+  file.zcorn[own.corner_index(column, 1, bottom)] =
+      file.zcorn[own.corner_index(column, 1, top)] - 0.5F;
+  const CornerPointGrid grid = corner_point_grid(file, "CASE.EGRID");
+  EXPECT_EQ(grid.z(column, 1, bottom), grid.z(column, 1, top));
+  EXPECT_NEAR(grid.z(column, 1, {false, false, true}), own.z(column, 1, {false, false, true}),
+              1e-3);
+  EXPECT_THAT(grid.remarks,
+              testing::ElementsAre("1 inactive cell has its bottom above its top, by up to 0.5 m: "
+                                   "the bottom was taken to lie at the top there"));
+  file.zcorn[own.corner_index(active, 1, bottom)] =
+      file.zcorn[own.corner_index(active, 1, top)] - 0.5F;
+  EXPECT_THAT([&] { corner_point_grid(file, "CASE.EGRID"); },
+              ThrowsMessage<InputError>(HasSubstr("1 cell has its bottom above its top, the first "
+                                                  "at i = 4, j = 4, k = 2")));
 }
 
 }  // namespace
