@@ -90,18 +90,21 @@ class GridMaker {
           "coordinates are on the map (GRIDUNIT says MAP): MAPAXES not applied");
       return;
     }
+    if (are_no_axes(file_.map_axes)) {
+      grid_.remarks.push_back("MAPAXES are zeros, which say nothing: not applied");
+      return;
+    }
+    const std::string misfit = axes_misfit(file_.map_axes);
+    if (!misfit.empty()) {
+      return refuse("has axes on the map (MAPAXES) that " + misfit,
+                    "correct MAPAXES in the flow model, or remove it");
+    }
     const double metre = eclipse_metre(file_.map_unit).value_or(metre_);
     const auto point = [&](std::size_t i) {
       return Eigen::Vector2d(metre * static_cast<double>(file_.map_axes[i]),
                              metre * static_cast<double>(file_.map_axes[i + 1]));
     };
     const Eigen::Vector2d y = point(0) - point(2), x = point(4) - point(2);
-    constexpr double kLeastSine = 0.99;  // as read_eclipse
-    const double sine = std::abs(x.x() * y.y() - x.y() * y.x()) / (x.norm() * y.norm());
-    if (!(sine > kLeastSine)) {
-      return refuse("has axes on the map (MAPAXES) that are not at right angles to each other",
-                    "correct MAPAXES in the flow model, or remove it");
-    }
     origin_ = point(2);
     along_x_ = x.normalized();
     along_y_ = y.normalized();

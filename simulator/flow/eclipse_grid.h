@@ -36,6 +36,13 @@ struct EclipseGrid {
 /// this program was built without opm-common (reads_eclipse in eclipse_result.h).
 EclipseGrid read_eclipse_grid(const std::filesystem::path& path);
 
+/// Whether MAPAXES say nothing: six zeros, which programs write that have no map.
+bool are_no_axes(const std::vector<float>& map_axes);
+
+/// What is wrong with the axes of MAPAXES (of which there are six numbers), as in "has axes on the
+/// map (MAPAXES) that are not at right angles to each other"; "": nothing.
+std::string axes_misfit(const std::vector<float>& map_axes);
+
 /// What a unit of length of the file is, and how that was decided.
 struct EclipseLength {
   double metre = 1;         ///< m per unit of the file.

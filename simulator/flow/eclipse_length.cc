@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -60,6 +61,23 @@ std::optional<double> eclipse_metre(const std::string& unit) {
   if (unit.rfind("FEET", 0) == 0) return 0.3048;
   if (unit.rfind("CM", 0) == 0) return 0.01;
   return std::nullopt;
+}
+
+bool are_no_axes(const std::vector<float>& map_axes) {
+  return std::ranges::all_of(map_axes, [](float number) { return number == 0; });
+}
+
+std::string axes_misfit(const std::vector<float>& map_axes) {
+  const auto from_origin = [&](std::size_t i) {
+    return Eigen::Vector2d(static_cast<double>(map_axes[i]) - static_cast<double>(map_axes[2]),
+                           static_cast<double>(map_axes[i + 1]) - static_cast<double>(map_axes[3]));
+  };
+  const Eigen::Vector2d y = from_origin(0), x = from_origin(4);
+  // Single precision does not tell points a foot apart from each other at 20 million feet.
+  if (x.norm() == 0 || y.norm() == 0) return "have no length: points on them are the origin";
+  constexpr double kLeastSine = 0.99;  // of the angle between them
+  const double sine = std::abs(x.x() * y.y() - x.y() * y.x()) / (x.norm() * y.norm());
+  return sine > kLeastSine ? "" : "are not at right angles to each other";
 }
 
 EclipseLength eclipse_length(const EclipseGrid& grid, std::optional<double> depth_ratio) {

@@ -152,19 +152,22 @@ class EclipseReader : EclipseProblems {
   void take_axes(const EGrid& grid, double metre) {
     const std::vector<float>& axes = grid.get_mapaxes();
     if (axes.size() < 6) return;
+    if (are_no_axes(axes)) {
+      notes_.emplace_back("has MAPAXES of zeros, which say nothing: they were not applied");
+      return;
+    }
+    const std::string misfit = axes_misfit(axes);
+    if (!misfit.empty()) {
+      return refuse(
+          files_.grid, "has axes on the map (MAPAXES) that " + misfit,
+          "correct MAPAXES in the flow model, or remove it and give the scene's \"origin\"");
+    }
     metre = eclipse_metre(grid.get_mapunits()).value_or(metre);
     const auto point = [&](std::size_t i) {
       return Eigen::Vector2d(metre * static_cast<double>(axes[i]),
                              metre * static_cast<double>(axes[i + 1]));
     };
     const Eigen::Vector2d y = point(0) - point(2), x = point(4) - point(2);
-    constexpr double kLeastSine = 0.99;  // of the angle between them: axes are at right angles
-    const double sine = std::abs(x.x() * y.y() - x.y() * y.x()) / (x.norm() * y.norm());
-    if (!(sine > kLeastSine)) {
-      return refuse(
-          files_.grid, "has axes on the map (MAPAXES) that are not at right angles to each other",
-          "correct MAPAXES in the flow model, or remove it and give the scene's \"origin\"");
-    }
     axes_ = {point(2), x.normalized(), y.normalized()};
     say_moved();
   }

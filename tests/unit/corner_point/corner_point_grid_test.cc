@@ -140,6 +140,11 @@ TEST(CornerPointGrid, LiesOnTheMapWhereItsAxesSay) {
   const CornerPointGrid on_map = corner_point_grid(file, "CASE.EGRID");
   EXPECT_LT((on_map.corner(0, 0, {}) - own.corner(0, 0, {})).norm(), 1e-3);
   EXPECT_THAT(on_map.remarks[0], HasSubstr("MAPAXES not applied"));
+  file.is_on_map = false;
+  file.map_axes.assign(6, 0);
+  const CornerPointGrid placed_nowhere = corner_point_grid(file, "CASE.EGRID");
+  EXPECT_EQ(placed_nowhere.corner(0, 0, {}), on_map.corner(0, 0, {}));
+  EXPECT_THAT(placed_nowhere.remarks, testing::ElementsAre(HasSubstr("MAPAXES are zeros")));
 }
 
 TEST(CornerPointGrid, HasRegionsOfItsActiveCells) {
@@ -179,7 +184,7 @@ TEST(CornerPointGrid, IsRefusedWithAllThatIsWrong) {
   file.coord[7] = std::numeric_limits<float>::quiet_NaN();
   file.zcorn[5] = std::numeric_limits<float>::infinity();
   file.length_unit = "YARDS";
-  file.map_axes = {0, 0, 0, 0, 1, 0};
+  file.map_axes = {1, 1, 0, 0, 1, 0};
   file.connections = {{0, 90}};
   try {
     corner_point_grid(file, "CASE.EGRID");

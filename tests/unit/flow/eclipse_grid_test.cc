@@ -139,6 +139,17 @@ TEST_F(EclipseGridFile, IsRefusedWithAllThatIsWrong) {
   expect_refused("CASE.INIT: cannot be read");
 }
 
+TEST(EclipseAxes, AreAtRightAnglesAndHaveALength) {
+  EXPECT_TRUE(are_no_axes({0, 0, 0, 0, 0, 0}));
+  EXPECT_FALSE(are_no_axes({0, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(axes_misfit({-7, 0, -7, 5, 4, 5}), "");
+  EXPECT_EQ(axes_misfit({2e6F, 2e7F + 2000, 2e6F, 2e7F, 2e6F + 2000, 2e7F}), "");
+  EXPECT_THAT(axes_misfit({1, 1, 0, 0, 1, 0}), HasSubstr("are not at right angles"));
+  // A foot further north is the same number.
+  EXPECT_THAT(axes_misfit({2e6F, 2e7F + 1, 2e6F, 2e7F, 2e6F + 1, 2e7F}), HasSubstr("no length"));
+  EXPECT_THAT(axes_misfit({0, 1, 0, 0, 0, 0}), HasSubstr("no length"));
+}
+
 TEST(EclipseLength, IsThatOfGridunitAndInteheadWhereTheyAgree) {
   EXPECT_EQ(eclipse_length({.length_unit = "FEET"}, {}).metre, 0.3048);
   EXPECT_EQ(eclipse_length({.length_unit = "CM", .unit_system = 3}, {}).metre, 0.01);

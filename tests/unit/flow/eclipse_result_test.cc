@@ -237,8 +237,12 @@ TEST_F(EclipseResult, LiesOnTheMapWhereItsAxesSay) {
   EXPECT_THAT(read().notes, IsEmpty());
   write_grid({.map_axes = {-7, 0, -7, 5, 4, 5}, .map_unit = "METRES"});  // y points south
   EXPECT_THAT(read().notes, ElementsAre(HasSubstr("180 deg, its x to the left of that")));
+  write_grid({.map_axes = {0, 0, 0, 0, 0, 0}});
+  EXPECT_EQ(read().cells[3].low, own.cells[3].low);
+  EXPECT_THAT(read().notes, ElementsAre(HasSubstr("MAPAXES of zeros, which say nothing")));
   write_grid({.map_axes = {0, 0, 0, 0, 1, 0}});
-  EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr("MAPAXES")));
+  EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(
+                                   HasSubstr("axes on the map (MAPAXES) that have no length")));
 }
 
 /// 5 GB with a hole between two reports: offsets do not fit into 32 bits, and nothing of what is
