@@ -120,16 +120,15 @@ class FromGrid {
   }
 
   void check_files() {
-    for (const auto& [option, given, ending] :
-         {std::tuple{"--init", arguments_.init, std::string(".INIT")},
-          {"--restart", arguments_.restart, std::string("")}}) {
+    fs::path restart = files_.grid;
+    restart.replace_extension(arguments_.restart.extension());
+    for (const auto& [option, given, beside] : {std::tuple{"--init", arguments_.init, files_.init},
+                                                {"--restart", arguments_.restart, restart}}) {
       if (given.empty()) continue;
       std::error_code error;
       if (!fs::is_regular_file(given, error))
         problems_.push_back(
             {option, 0, given.string() + ": there is no such file", "name an existing file"});
-      fs::path beside = files_.grid;
-      beside.replace_extension(ending.empty() ? given.extension().string() : ending);
       if (fs::weakly_canonical(given, error) != fs::weakly_canonical(beside, error))
         problems_.push_back(
             {option, 0, given.string() + " is not beside the grid under the grid's name",

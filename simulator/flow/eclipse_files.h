@@ -6,9 +6,10 @@
 namespace faultsim {
 
 /// The files of a result in Eclipse's formats: CASE.EGRID with CASE.UNRST or CASE.X0000,
-/// CASE.X0001, ...
+/// CASE.X0001, ... Endings may be in small letters.
 struct EclipseFiles {
   std::filesystem::path grid;  ///< may not exist.
+  std::filesystem::path init;  ///< CASE.INIT; may not exist.
   std::vector<std::filesystem::path>
       restarts;  ///< one unified file, or a file per report in order.
 };

@@ -89,8 +89,7 @@ class EclipseGridReader : EclipseProblems {
 
   /// The files beside the grid; none of them is needed.
   void take_neighbours() {
-    std::filesystem::path init = files_.grid;
-    init.replace_extension(".INIT");
+    const std::filesystem::path& init = files_.init;
     std::error_code error;
     if (std::filesystem::is_regular_file(init, error)) {
       guarded(init, [&] {

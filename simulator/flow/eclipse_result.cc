@@ -202,6 +202,11 @@ class EclipseReader : EclipseProblems {
   /// Arrays are read when they are asked for, and forgotten after their report: of files of many
   /// gigabytes only the values are kept.
   void read_restart(const std::filesystem::path& file) {
+    const std::string ending = file.extension().string();
+    if (ending.rfind(".x", 0) == 0) {
+      return refuse(file, "has an ending in small letters, from which a report is not told",
+                    "rename it to " + file.stem().string() + ".X" + ending.substr(2));
+    }
     ERst restart(file.string());
     for (const int report : restart.listOfReportStepNumbers()) {
       if (problems_.size() >= kMostProblems) return;

@@ -36,10 +36,9 @@ struct Stamp {
 std::vector<fs::path> files_of(const fs::path& path) {
   if (!is_eclipse_name(path)) return {path};
   EclipseFiles eclipse = eclipse_files(path);
-  fs::path init = eclipse.grid;  // says the unit of length (eclipse_length)
-  init.replace_extension(".INIT");
   std::error_code error;
-  if (fs::is_regular_file(init, error)) eclipse.restarts.insert(eclipse.restarts.begin(), init);
+  if (fs::is_regular_file(eclipse.init, error))  // says the unit of length (eclipse_length)
+    eclipse.restarts.insert(eclipse.restarts.begin(), eclipse.init);
   eclipse.restarts.insert(eclipse.restarts.begin(), eclipse.grid);
   return eclipse.restarts;
 }

@@ -305,6 +305,25 @@ TEST_F(EclipseResult, MayHaveAFilePerReport) {
             file.fingerprint);
 }
 
+TEST_F(EclipseResult, MayHaveEndingsInSmallLetters) {
+  write_grid({});
+  write_restart({});
+  const fs::path grid = folder_ / "CASE.egrid", restart = folder_ / "CASE.unrst";
+  const FlowField own = read();
+  EXPECT_EQ(eclipse_files(restart).grid, folder_ / "CASE.EGRID");
+  fs::rename(folder_ / "CASE.EGRID", grid);
+  fs::rename(folder_ / "CASE.UNRST", restart);
+  for (const fs::path& path : {grid, restart, folder_ / "CASE", folder_ / "CASE.EGRID"}) {
+    EXPECT_TRUE(is_eclipse_name(path)) << path;
+    EXPECT_EQ(read_field_file(path, FlowQuantity::pressure).field->value, own.value) << path;
+  }
+  EXPECT_EQ(eclipse_files(grid).init, folder_ / "CASE.init");
+  EXPECT_EQ(eclipse_files(folder_ / "CASE").init, folder_ / "CASE.INIT");
+  EXPECT_FALSE(is_eclipse_name(folder_ / "CASE.csv"));
+  fs::rename(restart, folder_ / "CASE.x0001");
+  EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr("rename it to CASE.X0001")));
+}
+
 TEST_F(EclipseResult, IsRefusedWithWhatIsWrong) {
   const auto refused = [&](const std::string& what) {
     EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr(what)));
