@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "simulator/scene/field_depths.h"
 #include "simulator/scene/scene.h"
 
 /// The initial state at a place of a fault, as far as the scene alone says it: no mesh, no
@@ -23,7 +24,12 @@ std::array<double, 3> fault_normal(const Scene& scene, std::size_t fault);
 
 /// t'_0 = σ0 n + α_f p0 n of the fault's plane at a depth (m), as cases start with it: p0 is that
 /// of the column, and what blocks beside have of their own by the fault's rule (docs/model.md, 6).
-InitialOnFault initial_on_fault(const Scene& scene, std::size_t fault, double depth);
+InitialOnFault initial_on_fault(const Scene& scene, std::size_t fault, double depth,
+                                DepthSide side = DepthSide::mean);
+
+/// The largest t'_N > 0 on a fault before any production, Pa: what its opening lets go of. 0 where
+/// all of it is pressed together, to 1 Pa. Of a fault of a mesh that of its mean plane.
+double initial_opening(const Scene& scene, std::size_t fault);
 
 /// The pressure regions (index in Scene::pressure) beside a fault of a field, west first; of a box,
 /// where the mesh decides, all.

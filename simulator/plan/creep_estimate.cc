@@ -9,6 +9,7 @@
 #include "simulator/flow/flow_field.h"
 #include "simulator/initial_state/initial_state.h"
 #include "simulator/initial_state/load_times.h"
+#include "simulator/initial_state/on_fault.h"
 #include "simulator/initial_state/pressure_history.h"
 #include "simulator/plan/creep_plan.h"
 
@@ -53,6 +54,13 @@ double largest_field_change(const FlowLoad& load) {
   });
 }
 
+/// Largest |Δp_f| that a fault is given rather than takes from its sides, wherever and whenever.
+double largest_given_change(const FaultPressure& law) {
+  if (law.rule == FaultPressureRule::table) return largest_of(law.profile.change, magnitude);
+  if (law.rule != FaultPressureRule::prescribed) return 0;
+  return std::abs(law.prescribed) * largest_factor(law.table);
+}
+
 double largest_pressure_change(const Scene& scene, double duration) {
   return std::max({largest_field_change(scene.pressure_field),
                    largest_of(scene.pressure,
@@ -60,9 +68,7 @@ double largest_pressure_change(const Scene& scene, double duration) {
                                 return largest_pressure_change(history, duration);
                               }),
                    largest_of(scene.faults, [](const Fault& fault) {
-                     const FaultPressure& law = fault.pressure;
-                     if (law.rule != FaultPressureRule::prescribed) return 0.0;
-                     return std::abs(law.prescribed) * largest_factor(law.table);
+                     return largest_given_change(fault.pressure);
                    })});
 }
 
@@ -164,6 +170,14 @@ double largest_initial_shear(const Scene& scene) {
   return largest;
 }
 
+/// Largest initial traction that opens a fault.
+double largest_initial_opening(const Scene& scene) {
+  double largest = 0;
+  for (std::size_t fault = 0; fault < scene.faults.size(); ++fault)
+    largest = std::max(largest, initial_opening(scene, fault));
+  return largest;
+}
+
 double shortest_relaxation_time(const Scene& scene) {
   double shortest = std::numeric_limits<double>::infinity();
   for (const Material& material : used_materials(scene)) {
@@ -185,7 +199,7 @@ CreepEstimate estimate_creep(const Scene& scene) {
   if (!boundary) return estimate;
   estimate.stress = largest_pressure_change(scene, estimate.duration) +
                     largest_thermal_stress(scene) + largest_stress_change(scene) + *boundary +
-                    largest_initial_shear(scene);
+                    largest_initial_shear(scene) + largest_initial_opening(scene);
   estimate.bound = kCreepConcentration * *estimate.stress * estimate.relaxed_share;
   return estimate;
 }

@@ -15,8 +15,9 @@ struct CreepEstimate {
   double duration = 0;         ///< T, s, of all stages.
   double relaxed_share = 0;    ///< 1 − exp(−T/τ), of a deviatoric stress at held strain.
   /// S, Pa, what loads may bring into the salt: the largest |Δp| of a region or fault, the largest
-  /// boundary stress, the confined modulus times the largest boundary strain, and what slip may
-  /// release, the largest initial shear stress. Nothing where a face is translated.
+  /// boundary stress, the confined modulus times the largest boundary strain, and what slip and
+  /// opening may release, the largest initial shear stress and the largest initial tension across a
+  /// fault. Nothing where a face is translated.
   std::optional<double> stress;
   /// kCreepConcentration · S · relaxed share, Pa.
   std::optional<double> bound;

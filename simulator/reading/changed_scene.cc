@@ -185,6 +185,7 @@ bool read_sections(const Touched& touched, unsigned sections, Relations relation
   }
   scene.remarks.resize(scene.n_table_remarks);
   if (relations == Relations::checked) relate_parts(reader, problems, scene);
+  if (problems.empty() && (sections & ~unsigned{kLoading}) != 0) find_openings(scene);
   changed.known.by_value.clear();
   if (relations == Relations::trusted) changed.known.by_value.swap(reader.quantities());
   return problems.empty();

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "simulator/initial_state/initial_state.h"
+#include "simulator/initial_state/on_fault.h"
 #include "simulator/reading/scene_reader.h"
 
 /// What a scene says about creep must have something to act on. A viscosity that was refused reads
@@ -61,6 +62,13 @@ void check_creep(SceneReader& reader, const Scene& scene) {
   if (!is_body_known(reader, scene)) return;  // nor what it is made of
   check_switch(reader, scene);
   check_initial_state(reader, scene);
+}
+
+void find_openings(Scene& scene) {
+  scene.opens_at_start = false;
+  if (scene.numerics.creep != Switch::automatic || !has_viscous_material(scene)) return;
+  for (std::size_t fault = 0; fault < scene.faults.size(); ++fault)
+    scene.opens_at_start = scene.opens_at_start || initial_opening(scene, fault) > 0;
 }
 
 }  // namespace faultsim

@@ -210,6 +210,7 @@ Scene read_scene(const JsonDocument& document, std::vector<Problem>& problems) {
   read_output(reader, scene);
   read_surface(reader, scene);
   relate_parts(reader, problems, scene);
+  if (problems.empty()) find_openings(scene);
   std::ranges::stable_sort(problems, {}, &Problem::line);
   return scene;
 }

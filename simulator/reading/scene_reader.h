@@ -169,6 +169,8 @@ void read_output(SceneReader& reader, Scene& scene);
 void check_geometry(SceneReader& reader, const Scene& scene);
 void check_pressures(SceneReader& reader, const Scene& scene);
 void check_creep(SceneReader& reader, const Scene& scene);
+/// Sets Scene::opens_at_start. @pre the scene is sound.
+void find_openings(Scene& scene);
 /// Tables of fault pressure meet their fault.
 void check_fault_tables(SceneReader& reader, const Scene& scene);
 /// Reads /numerics/surface and holds its parameters against the rest. @pre the rest is read.

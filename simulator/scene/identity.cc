@@ -118,6 +118,16 @@ std::string numerics(const Numerics& numerics) {
   return text;
 }
 
+/// What counts when creep is left out did not include temperatures once, nor tables of fault
+/// pressure and faults that are open at the start: scenes without them keep their identity.
+int estimate_version(const Scene& scene) {
+  const bool has_table = std::ranges::any_of(scene.faults, [](const Fault& fault) {
+    return fault.pressure.rule == FaultPressureRule::table;
+  });
+  if (has_table || scene.opens_at_start) return 3;
+  return scene.temperature.empty() ? 1 : 2;
+}
+
 /// An elastic scene has no creep to speak of: it keeps the identity from before there was any.
 std::string creep(const Scene& scene) {
   std::string text;
@@ -125,9 +135,9 @@ std::string creep(const Scene& scene) {
   ObjectText object(text);
   const auto add = Canonical::adder(object);
   for_each_creep_key(scene.numerics, add);
-  // Whether creep is left out did not depend on temperatures once.
   const bool is_estimated = scene.numerics.creep == Switch::automatic;
-  if (is_estimated && !scene.temperature.empty()) add(SceneKey{"estimate"}, 2);
+  const int version = is_estimated ? estimate_version(scene) : 1;
+  if (version > 1) add(SceneKey{"estimate"}, version);
   object.close();
   return text;
 }
@@ -183,8 +193,7 @@ void write_parts(const Scene& scene, unsigned sections, CanonicalParts& parts) {
   if ((sections & (kGeometry | (has_patches ? kFaults : 0U))) != 0)
     parts.geometry = geometry(scene);
   if ((sections & (kGeometry | kMaterials)) != 0) parts.materials = materials(scene);
-  // Whether something creeps may depend on temperatures.
-  if ((sections & (kGeometry | kMaterials | kLoading)) != 0) parts.creep = creep(scene);
+  parts.creep = creep(scene);  // whether something creeps may depend on each of them
   if ((sections & (kGeometry | kInitialState)) != 0) parts.block_edge = block_edge(scene);
   if ((sections & kInitialState) != 0) parts.initial_state = text_of(scene.initial);
   if ((sections & kLoading) != 0) {

@@ -198,6 +198,9 @@ struct Scene {
   std::vector<TemperatureHistory> temperature;  ///< of regions whose temperature changes.
   /// The date of time 0, s since 1970-01-01, where it is known; never part of a case's identity.
   std::optional<double> start_date = {};
+  /// Whether a fault is open before any production (initial_state/on_fault), where creep may be
+  /// left out because of it; follows from the rest.
+  bool opens_at_start = false;
   FlowLoad pressure_field, temperature_field;
   bool has_field() const { return pressure_field.is_given() || temperature_field.is_given(); }
   bool has_temperatures() const { return temperature_field.is_given() || !temperature.empty(); }

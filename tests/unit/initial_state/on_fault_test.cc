@@ -69,6 +69,26 @@ TEST(InitialOnFault, ABiotCoefficientOfTheFaultWeighsThePressure) {
               kRatio * (kVertical + kPore) - kPore + 0.8 * kPore, 1e-3);
 }
 
+/// Just below the top of the reservoir, where the east has 175 bar more than the column.
+TEST(InitialOpening, IsThatOfTheSideWhereItIsLargest) {
+  Scene scene = varied(rotliegend(), {{"/fault_pressure/rule", "max"}});
+  EXPECT_EQ(initial_opening(scene, 1), 0);
+  scene.field.blocks[1].overpressure = 20e6;
+  constexpr double kTop = -9.81 * (2200 * 1500 + 2100 * 500), kFluid = 9.81e3 * 2000 + 2.5e6;
+  EXPECT_NEAR(initial_opening(scene, 1), kRatio * (kTop + kFluid) + 17.5e6, 1e-2);
+  EXPECT_EQ(initial_opening(scene, 0), 0) << "of the west alone";
+}
+
+TEST(InitialOpening, OfRoundingIsNone) {
+  Scene scene = read_scene(parse_json(starter_scene("box"), "box"));
+  scene.initial.tensor = {-30e6, 0, 0, 0, -30e6, 0, 0, 0, -30e6};
+  scene.initial.pressure_gradient = 0;
+  scene.initial.pressure = 30e6 + 0.5;
+  EXPECT_EQ(initial_opening(scene, 0), 0);
+  scene.initial.pressure = 30e6 + 2;
+  EXPECT_NEAR(initial_opening(scene, 0), 2, 1e-6);
+}
+
 TEST(InitialOnFault, RegionsBesideAreThoseOfTheBlocks) {
   const Scene scene = varied(rotliegend());
   EXPECT_EQ(regions_beside(scene, 0), std::vector<std::size_t>{0});

@@ -196,6 +196,38 @@ TEST(CreepEstimate, TakesTheLargestPressureChangeOfTheHistory) {
               20e6, 1e-3);
 }
 
+/// Wherever and whenever it is largest.
+TEST(CreepEstimate, CountsTablesOfFaultPressure) {
+  JsonDocument document =
+      read_json_file(FAULTSIM_SOURCE_DIR "/docs/examples/scenes/rotliegend-salt.json");
+  document.value["fault_pressure"] = {{"rule", "table"}, {"csv", "p.csv"}};
+  document.value["tables"]["p.csv"] = std::vector<std::string>{
+      "depth [m], 0 year [MPa], 9 year [MPa], 18 year [MPa]", "1800, 0, 10, 0", "2400, 0, 25, 5"};
+  const Scene scene = changed(
+      document, {{"/initial_state/ratio_across", "1"}, {"/initial_state/ratio_along", "1"}});
+  EXPECT_NEAR(*estimate_creep(scene).stress, 25e6, 1e-3) << "more than the 200 bar of the rest";
+}
+
+/// Nothing loads a box of salt, but its fluid presses its fault open.
+TEST(CreepEstimate, CountsWhatOpensAtTheStart) {
+  const auto box = [](const char* pressure) {
+    JsonDocument document = parse_json(starter_scene("box"), "box");
+    set_value(document, "/materials/rock/viscosity", "1e17 Pa s");
+    set_value(document, "/stages/0/pressure_change", "0 bar");
+    document.value["initial_state"] = {{"kind", "profile"},
+                                       {"pressure", pressure},
+                                       {"tensor",
+                                        {{"-30 MPa", "0 MPa", "0 MPa"},
+                                         {"0 MPa", "-30 MPa", "0 MPa"},
+                                         {"0 MPa", "0 MPa", "-30 MPa"}}}};
+    return read_scene(document);
+  };
+  EXPECT_NEAR(*estimate_creep(box("40 MPa")).stress, 10e6, 1e-3);
+  EXPECT_TRUE(planned(box("40 MPa")).creep.active);
+  EXPECT_NEAR(*estimate_creep(box("20 MPa")).stress, 0, 1e-3);
+  EXPECT_FALSE(planned(box("20 MPa")).creep.active);
+}
+
 /// 3 K α_T ΔT of the material that expands most.
 TEST(CreepEstimate, AddsTheLargestThermalStress) {
   const double pressure = *estimate_creep(viscous({})).stress;

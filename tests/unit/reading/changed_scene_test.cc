@@ -123,6 +123,20 @@ TEST_P(ChangedSceneTest, MoreRegionsHavePressuresToo) {
   change({});
 }
 
+/// Whether creep may be left out depends on the rules of faults and on the initial state too.
+TEST_P(ChangedSceneTest, WhatMayKeepCreepIsSaidAgain) {
+  base_ = parse_json(starter_scene("box"), "box");
+  base_.value["materials"]["rock"]["viscosity"] = "1e17 Pa s";
+  base_.value["tables"]["p.csv"] = std::vector<std::string>{
+      "depth [m], 0 year [bar], 10 year [bar]", "1000, 0, 9", "3000, 0, 9"};
+  changed_.document = base_;
+  change({});
+  change({{"/fault_pressure", {{"rule", "table"}, {"csv", "p.csv"}}}});
+  change({{"/fault_pressure/rule", "max"}});
+  change({{"/initial_state/pressure", "600 bar"}});
+  change({{"/initial_state/pressure", "0 bar"}});
+}
+
 TEST_P(ChangedSceneTest, ABoxHasItsPatchesAgain) {
   base_ = parse_json(starter_scene("box"), "box");
   changed_.document = base_;

@@ -218,6 +218,35 @@ TEST(CaseIdentity, FollowsABlockToAnEdgeOfTheColumn) {
   EXPECT_EQ(case_identity(parts), case_identity(at_edge));
 }
 
+/// The version of the estimate by which creep is left out, 1 where the identity says none.
+int estimate_version(const JsonDocument& document, const Settings& settings) {
+  const std::string text = canonical_scene(varied(document, settings)), key = "\"estimate\":";
+  const std::size_t at = text.find(key);
+  return at == std::string::npos ? 1 : std::stoi(text.substr(at + key.size()));
+}
+
+/// Scenes without what creep: automatic did not count once are the cases that they were.
+TEST(CaseIdentity, SaysWhatMayKeepCreep) {
+  const std::pair<std::string, std::string> viscous = {"/materials/salt/viscosity", "1e17 Pa s"},
+                                            cools = {"/stages/0/temperature_change", "-9 K"};
+  JsonDocument tabled = rotliegend();
+  tabled.value["fault_pressure"] = {{"rule", "table"}, {"csv", "p.csv"}};
+  tabled.value["tables"]["p.csv"] = std::vector<std::string>{
+      "depth [m], 0 year [bar], 18 year [bar]", "1800, 0, 9", "2400, 0, 9"};
+  EXPECT_EQ(estimate_version(rotliegend(), {viscous}), 1);
+  EXPECT_EQ(estimate_version(rotliegend(), {viscous, cools}), 2);
+  EXPECT_EQ(estimate_version(tabled, {viscous}), 3);
+  EXPECT_EQ(estimate_version(tabled, {viscous, cools}), 3);
+  EXPECT_EQ(estimate_version(tabled, {viscous, {"/numerics/creep", "on"}}), 1) << "no estimate";
+  EXPECT_EQ(estimate_version(tabled, {}), 1) << "nothing creeps";
+  const JsonDocument box = parse_json(starter_scene("box"), "box");
+  const std::pair<std::string, std::string> salt = {"/materials/rock/viscosity", "1e17 Pa s"},
+                                            open = {"/initial_state/pressure", "600 bar"};
+  EXPECT_EQ(estimate_version(box, {salt}), 1);
+  EXPECT_EQ(estimate_version(box, {salt, open}), 3);
+  EXPECT_EQ(estimate_version(box, {open}), 1) << "nothing creeps";
+}
+
 /// Whatever a scene can ask to be written, every key of the section.
 TEST(CaseIdentity, IgnoresEverythingInTheOutputSection) {
   const std::map<std::string, std::string> outputs = {
