@@ -28,6 +28,17 @@ std::array<double, 2> heights_of(const CornerPointGrid& grid, int column,
   return heights;
 }
 
+/// Of a cell's top on the map, negative where i and j are left-handed. Of its corners: the points
+/// by which a file gives pillars may lie where pillars that fan have crossed.
+double doubled_area_of(const CornerPointGrid& grid, int column, int layer) {
+  const auto corner = [&](bool right, bool back) {
+    return Eigen::Vector2d(grid.corner(column, layer, {right, back, false}).head<2>());
+  };
+  const Eigen::Vector2d across = corner(true, true) - corner(false, false),
+                        other = corner(false, true) - corner(true, false);
+  return across.x() * other.y() - across.y() * other.x();
+}
+
 bool has_inverted_cell(const CornerPointGrid& grid, int column, const std::array<int, 2>& layers) {
   for (int k = layers[0]; k <= layers[1]; ++k)
     if (grid.is_inverted(column, k)) return true;
@@ -42,12 +53,7 @@ ColumnMap::ColumnMap(const CornerPointGrid& grid) : grid_(&grid) {
     layers_.push_back(active_layers(grid, column));
     is_inside_.push_back(layers_.back()[0] <= layers_.back()[1] ? 1 : 0);
     if (is_inside_.back() == 0) continue;
-    const auto top = [&](bool right, bool back) {
-      return Eigen::Vector2d(grid.pillars[grid.pillar_of(column, {right, back})].top.head<2>());
-    };
-    const Eigen::Vector2d across = top(true, true) - top(false, false),
-                          other = top(false, true) - top(true, false);
-    doubled_area += across.x() * other.y() - across.y() * other.x();
+    doubled_area += doubled_area_of(grid, column, layers_.back()[0]);
   }
   is_left_handed_ = doubled_area < 0;
   take_in_holes();

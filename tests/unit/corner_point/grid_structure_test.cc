@@ -74,6 +74,34 @@ TEST(GridStructure, SaysWhichSideIsLowerByTheMapNotByIndices) {
   EXPECT_NEAR(raised.faults[0].offset[3], -30, 1e-9);
 }
 
+/// Pillars meet 1250 m above the reservoir. Whichever two points of each a file gives, below the
+/// place where they meet or above it, they are the same pillars.
+TEST(GridStructure, IsThatOfTheCornersWhereverPillarsAreGiven) {
+  CornerPointGrid near = made(with_straight_fault());
+  for (Pillar& pillar : near.pillars) {
+    const double x = pillar.bottom.x();
+    pillar.top = {1000 + 0.6 * (x - 1000), pillar.top.y(), -1500};
+    pillar.bottom = {1000 + 1.4 * (x - 1000), pillar.bottom.y(), -2500};
+  }
+  CornerPointGrid far = near;
+  for (Pillar& pillar : far.pillars) pillar.top << pillar.at(0), 0;
+  ASSERT_GT(far.pillars[0].top.x(), far.pillars[1].top.x()) << "crossed there";
+  const GridStructure expected = recognise_structure(near, {}),
+                      found = recognise_structure(far, {});
+  ASSERT_EQ(expected.faults.size(), 1u);
+  EXPECT_EQ(expected.faults[0].down, Side::right);
+  ASSERT_EQ(found.faults.size(), 1u) << text_of(found);
+  EXPECT_EQ(found.faults[0].down, Side::right);
+  EXPECT_EQ(found.faults[0].dips_towards, expected.faults[0].dips_towards);
+  EXPECT_EQ(found.faults[0].edges.size(), expected.faults[0].edges.size());
+  for (std::size_t e = 0; e < found.faults[0].edges.size(); ++e) {
+    EXPECT_EQ(found.faults[0].edges[e].left, expected.faults[0].edges[e].left);
+    EXPECT_EQ(found.faults[0].edges[e].right, expected.faults[0].edges[e].right);
+  }
+  for (const double offset : found.faults[0].offset) EXPECT_NEAR(offset, 30, 1e-9);
+  EXPECT_EQ(text_of(found), text_of(expected));
+}
+
 TEST(GridStructure, SeparatesCompartmentsByFaults) {
   const GridStructure found = recognise_structure(made(with_straight_fault()), {});
   ASSERT_EQ(found.compartments.size(), 2u);
