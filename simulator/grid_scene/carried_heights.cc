@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "simulator/common/ranges.h"
 
@@ -9,31 +11,68 @@ namespace faultsim::grid_scene {
 
 using Eigen::Vector2d;
 
-std::vector<double> carried(
+namespace {
+
+/// What a surface goes on by where a side is moved to, m.
+struct Change {
+  double along, across;  ///< the fault that it is on.
+};
+
+Change change_of(const Moved& side, const Vector2d& to) {
+  const Vector2d way = to - side.from;
+  const Vector2d across = side.across * side.across.dot(way);
+  return {side.level.slope.dot(way - across), side.level.slope.dot(across)};
+}
+
+/// Where rest(z) is zero, which is less than 0 below and greater above; none if it jumps there or
+/// is not finite. By secants, which are exact on lines, from z on, the second place z − rest(z);
+/// once the zero lies between two places, by halves too. The last call is with what is returned.
+std::optional<double> zero_of(double z, const std::function<double(double)>& rest) {
+  constexpr int kRounds = 200;
+  constexpr double kSame = 1e-6;  // m
+  constexpr double kJump = 0.01;  // m: pillars beside a fault may jump by millimetres
+  double low = -HUGE_VAL, high = HUGE_VAL, before = z, there = rest(z), slope = 1;
+  for (int round = 0; round < kRounds && std::isfinite(there) && high - low > kSame; ++round) {
+    if (std::abs(there) <= kSame) return z;
+    (there < 0 ? low : high) = z;
+    const bool is_between = std::isfinite(low) && std::isfinite(high);
+    double next = z - there / slope;
+    if (is_between && round % 3 == 2) next = (low + high) / 2;
+    if (!(next > low && next < high)) next = is_between ? (low + high) / 2 : z + 2 * (z - before);
+    before = std::exchange(z, next);
+    const double rest_before = std::exchange(there, rest(z));
+    slope = (there - rest_before) / (z - before);
+  }
+  return std::abs(there) <= kJump ? std::optional(z) : std::nullopt;
+}
+
+}  // namespace
+
+CarriedHeights carried(
     const std::vector<Moved>& sides,
     const std::function<std::optional<Vector2d>(std::size_t side, double z)>& place) {
-  constexpr int kRounds = 30;     // a place goes on with the height by less than the height with it
-  constexpr double kSame = 1e-4;  // m
   std::vector<double> z = mapped(sides, [](const Moved& one) { return one.level.z; });
-  double change = 1;
-  for (int round = 0; round < kRounds && change > kSame; ++round) {
-    const std::vector<double> before = z;
-    double common = 0, n = 0;
+  // Given what all sides of faults go on by across them, each has its height by itself.
+  const auto rest = [&](double common) {
+    double across = 0, n = 0;
     for (std::size_t k = 0; k < sides.size(); ++k) {
       const Moved& one = sides[k];
-      const Vector2d way = place(k, before[k]).value_or(one.from) - one.from;
-      const Vector2d across = one.across * one.across.dot(way);
-      z[k] = one.level.z + one.level.slope.dot(way - across);
-      common += one.level.slope.dot(across);
-      n += one.across.isZero(0) ? 0 : 1;
+      const bool is_on_fault = !one.across.isZero(0);
+      const double own = one.level.z + (is_on_fault ? common : 0);
+      Change change{0, 0};
+      const std::optional<double> found = zero_of(own, [&](double height) {
+        change = change_of(one, place(k, height).value_or(one.from));
+        return height - own - change.along;
+      });
+      if (!found) return std::numeric_limits<double>::quiet_NaN();
+      z[k] = *found;
+      across += change.across;
+      n += is_on_fault ? 1 : 0;
     }
-    change = 0;
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-      if (!sides[k].across.isZero(0)) z[k] += common / n;
-      change = std::max(change, std::abs(z[k] - before[k]));
-    }
-  }
-  return z;
+    return n > 0 ? common - across / n : 0;
+  };
+  if (zero_of(0, rest)) return {z, true};
+  return {mapped(sides, [](const Moved& one) { return one.level.z; }), false};
 }
 
 void SideProfile::add(double along, double z) {

@@ -22,11 +22,17 @@ struct Moved {
   Eigen::Vector2d across = {0, 0};  ///< the fault that it is on, a unit vector; (0, 0): on none.
 };
 
+struct CarriedHeights {
+  std::vector<double> z;  ///< per side, m.
+  bool is_found = true;   ///< else z is that of the levels.
+};
+
 /// Heights of all sides of one pillar where they are moved to. Along the fault each goes on by its
 /// own slope, across it all by the mean of their slopes: what lies between the sides, the throw, is
-/// kept where the pillar is put on the straightened fault.
+/// kept where the pillar is put on the straightened fault. Exact where places go on linearly with
+/// the height, however steep surfaces are; none may be found where places jump.
 /// @param place  where one of them is at a height; none: it is not moved.
-std::vector<double> carried(
+CarriedHeights carried(
     const std::vector<Moved>& sides,
     const std::function<std::optional<Eigen::Vector2d>(std::size_t side, double z)>& place);
 

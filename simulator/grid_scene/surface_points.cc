@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -84,12 +85,15 @@ class SurfaceMaker {
   bool is_thick_enough(int above, int below) const;
   void place_points();
   ModelSurface first_surface(int layer) const;
-  std::map<FaultSide, SideProfile> profiles_of(int layer) const;
-  double height_below(const Place& place, int layer) const;
-  ModelSurface hung_surface(int layer, const ModelSurface& above) const;
+  std::map<FaultSide, SideProfile> profiles_of(int layer);
+  double height_below(const Place& place, int layer);
+  ModelSurface hung_surface(int layer, const ModelSurface& above);
   std::optional<Vector2d> place_at(const Group& group, double z) const;
   std::size_t end_of_pillar(std::size_t group) const;
-  std::vector<std::optional<Vector3d>> placed(std::size_t begin, int layer) const;
+  std::vector<double> heights(
+      const std::vector<Moved>& moved,
+      const std::function<std::optional<Vector2d>(std::size_t side, double z)>& place);
+  std::vector<std::optional<Vector3d>> placed(std::size_t begin, int layer);
   double along(const Group& group, const Vector3d& point) const;
   void add_tips();
   std::array<std::size_t, 2> beside_tip(const ModelFault& fault, const Vector2d& tip) const;
@@ -106,6 +110,7 @@ class SurfaceMaker {
   ModelPillars pillars_;
   std::vector<Place> places_;
   int n_left_out_ = 0;
+  int n_not_carried_ = 0;
 };
 
 void SurfaceMaker::find_groups() {
@@ -270,11 +275,20 @@ std::size_t SurfaceMaker::end_of_pillar(std::size_t group) const {
   return end;
 }
 
+/// Where they are moved to; where none are found those before, counted.
+std::vector<double> SurfaceMaker::heights(
+    const std::vector<Moved>& moved,
+    const std::function<std::optional<Vector2d>(std::size_t side, double z)>& place) {
+  const CarriedHeights found = carried(moved, place);
+  n_not_carried_ += found.is_found ? 0 : 1;
+  return found.z;
+}
+
 /// Points of a surface of all groups of a pillar, from its first one, or none.
-std::vector<std::optional<Vector3d>> SurfaceMaker::placed(std::size_t begin, int layer) const {
+std::vector<std::optional<Vector3d>> SurfaceMaker::placed(std::size_t begin, int layer) {
   std::vector<Moved> moved;
   for (std::size_t g = begin; g < end_of_pillar(begin); ++g) moved.push_back(in_grid(g, layer));
-  const std::vector<double> z = carried(
+  const std::vector<double> z = heights(
       moved, [&](std::size_t k, double height) { return place_at(groups_[begin + k], height); });
   std::vector<std::optional<Vector3d>> points;
   for (std::size_t k = 0; k < z.size(); ++k) {
@@ -363,7 +377,7 @@ ModelSurface SurfaceMaker::first_surface(int layer) const {
 }
 
 /// A surface along both sides of the faults, of the pillars that the first surface has points of.
-std::map<SurfaceMaker::FaultSide, SideProfile> SurfaceMaker::profiles_of(int layer) const {
+std::map<SurfaceMaker::FaultSide, SideProfile> SurfaceMaker::profiles_of(int layer) {
   std::set<std::size_t> used;
   for (const Place& place : places_)
     if (place.groups.size() == 1) used.insert(place.groups.front());
@@ -385,13 +399,13 @@ std::map<SurfaceMaker::FaultSide, SideProfile> SurfaceMaker::profiles_of(int lay
 }
 
 /// Where the model's pillar through a place meets the plane of its own columns.
-double SurfaceMaker::height_below(const Place& place, int layer) const {
+double SurfaceMaker::height_below(const Place& place, int layer) {
   double mean = 0;
   for (const std::size_t g : place.groups) {
     Moved own = in_grid(g, layer);
     own.across = {0, 0};
     const std::vector<double> z =
-        carried({own}, [&](std::size_t, double height) { return pillars_.at(place.at, height); });
+        heights({own}, [&](std::size_t, double height) { return pillars_.at(place.at, height); });
     mean += z.front() / static_cast<double>(place.groups.size());
   }
   return mean;
@@ -399,7 +413,7 @@ double SurfaceMaker::height_below(const Place& place, int layer) const {
 
 /// A surface as much below another as it is in the grid, on pillars of the model: beside a fault at
 /// the same place along it, as pillars of the grid lean along faults too.
-ModelSurface SurfaceMaker::hung_surface(int layer, const ModelSurface& above) const {
+ModelSurface SurfaceMaker::hung_surface(int layer, const ModelSurface& above) {
   const std::map<FaultSide, SideProfile> profiles = profiles_of(layer);
   ModelSurface surface{.name = "", .layer = layer, .points = {}, .thickness = {}};
   for (std::size_t p = 0; p < places_.size(); ++p) {
@@ -444,6 +458,13 @@ std::vector<ModelSurface> SurfaceMaker::make() {
                         counted(n_left_out_, "pillar", "pillars") +
                             " that straightened faults would put on the wrong side",
                         "--straightening"});
+  if (n_not_carried_ > 0)
+    remarks_.push_back(
+        {RemarkKind::warning,
+         concat("surfaces keep their heights in the grid at ",
+                counted(n_not_carried_, "pillar", "pillars"),
+                " that straightened faults move by leaps: their slope is not taken into account"),
+         "--straightening"});
   return surfaces;
 }
 

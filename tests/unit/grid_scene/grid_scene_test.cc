@@ -23,6 +23,7 @@ namespace faultsim::grid_scene {
 namespace {
 
 using corner_point::cross_product;
+using corner_point::made;
 using corner_point::MadeGrid;
 using corner_point::nearest_on_line;
 using Eigen::Vector2d;
@@ -182,6 +183,30 @@ TEST(GridScene, KeepsTheThrowOfEachPillarWhereItsSidesSlopeDifferently) {
     }
     EXPECT_GT(largest - least, 5) << "else nothing was shown";
   }
+}
+
+/// A fault that dips by 45 degrees, and four columns that rise against it by 60 m each: between
+/// leaning pillars by 1.5. The reservoir is 40 m thick on all pillars.
+TEST(GridScene, KeepsAConstantThicknessOfColumnsThatAreSteepAgainstAFault) {
+  const MadeGrid plan{.size = {16, 8, 2}, .dy = 100, .lean = {1, 0}, .thickness = {20, 20}};
+  corner_point::CornerPointGrid grid = made(plan);
+  std::size_t corner = 0;
+  for (int plane = 0; plane < 2 * plan.size[2]; ++plane)
+    for (int row = 0; row < 2 * plan.size[1]; ++row)
+      for (int place = 0; place < 2 * plan.size[0]; ++place, ++corner) {
+        const double depth = 1800 + 20 * ((plane + 1) / 2) + (place / 2 >= 8 ? 60 : 0);
+        grid.corner_z[corner] = 60 * std::clamp((place + 1) / 2 - 6, 0, 4) - depth;
+      }
+  GridSceneOptions options;
+  options.lines = {.margin = 2000, .base_depth = 4000, .strike = 100};
+  const MadeScene all = scene_of(grid, {}, options);
+  ASSERT_EQ(all.made.lines.faults.size(), 1u);
+  ASSERT_EQ(all.made.surfaces.size(), 2u);
+  const ModelSurface& base = all.made.surfaces[1];
+  ASSERT_GT(base.points.size(), 100u);
+  for (std::size_t p = 0; p < base.points.size(); ++p)
+    EXPECT_NEAR(base.thickness[p], 40, 1) << base.points[p].transpose();
+  EXPECT_FALSE(says(all.made.remarks, "by leaps"));
 }
 
 TEST(GridScene, IsTheSceneOfTheContract) {
