@@ -91,4 +91,9 @@ std::optional<double> SideProfile::at(double along) const {
   return before->second + part * (after->second - before->second);
 }
 
+std::optional<double> SideProfiles::at(int fault, int side, double along) const {
+  const auto found = of_side_.find({fault, side});
+  return found == of_side_.end() ? std::nullopt : found->second.at(along);
+}
+
 }  // namespace faultsim::grid_scene

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,6 +47,18 @@ class SideProfile {
 
  private:
   std::vector<std::pair<double, double>> points_;  ///< in order along the fault.
+};
+
+/// A surface along the sides of all faults.
+class SideProfiles {
+ public:
+  /// @param side  1 left, −1 right.
+  void add(int fault, int side, double along, double z) { of_side_[{fault, side}].add(along, z); }
+  /// None as of a SideProfile, and of a side without any point.
+  std::optional<double> at(int fault, int side, double along) const;
+
+ private:
+  std::map<std::pair<int, int>, SideProfile> of_side_;  ///< by fault and side.
 };
 
 }  // namespace faultsim::grid_scene

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <optional>
 #include <tuple>
 
@@ -73,7 +72,6 @@ class SurfaceMaker {
     Vector3d at;
     std::vector<std::size_t> groups;
   };
-  using FaultSide = std::pair<int, int>;  ///< fault; 1 left, −1 right.
 
   void find_groups();
   void add_groups(int pillar, const std::set<int>& barriers,
@@ -85,7 +83,7 @@ class SurfaceMaker {
   bool is_thick_enough(int above, int below) const;
   void place_points();
   ModelSurface first_surface(int layer) const;
-  std::map<FaultSide, SideProfile> profiles_of(int layer);
+  SideProfiles profiles_of(int layer);
   double height_below(const Place& place, int layer);
   ModelSurface hung_surface(int layer, const ModelSurface& above);
   std::optional<Vector2d> place_at(const Group& group, double z) const;
@@ -377,11 +375,11 @@ ModelSurface SurfaceMaker::first_surface(int layer) const {
 }
 
 /// A surface along both sides of the faults, of the pillars that the first surface has points of.
-std::map<SurfaceMaker::FaultSide, SideProfile> SurfaceMaker::profiles_of(int layer) {
+SideProfiles SurfaceMaker::profiles_of(int layer) {
   std::set<std::size_t> used;
   for (const Place& place : places_)
     if (place.groups.size() == 1) used.insert(place.groups.front());
-  std::map<FaultSide, SideProfile> profiles;
+  SideProfiles profiles;
   for (std::size_t begin = 0; begin < groups_.size(); begin = end_of_pillar(begin)) {
     if (std::ranges::all_of(groups_.begin() + static_cast<std::ptrdiff_t>(begin),
                             groups_.begin() + static_cast<std::ptrdiff_t>(end_of_pillar(begin)),
@@ -391,8 +389,8 @@ std::map<SurfaceMaker::FaultSide, SideProfile> SurfaceMaker::profiles_of(int lay
     for (std::size_t k = 0; k < points.size(); ++k) {
       const Group& group = groups_[begin + k];
       if (group.fault < 0 || !points[k] || !used.contains(begin + k)) continue;
-      profiles[{group.fault, group.side[static_cast<std::size_t>(group.fault)]}].add(
-          along(group, *points[k]), points[k]->z());
+      profiles.add(group.fault, group.side[static_cast<std::size_t>(group.fault)],
+                   along(group, *points[k]), points[k]->z());
     }
   }
   return profiles;
@@ -412,16 +410,17 @@ double SurfaceMaker::height_below(const Place& place, int layer) {
 }
 
 /// A surface as much below another as it is in the grid, on pillars of the model: beside a fault at
-/// the same place along it, as pillars of the grid lean along faults too.
+/// the same place along it, as pillars of the grid lean along faults too, if any of that side has a
+/// place at this depth.
 ModelSurface SurfaceMaker::hung_surface(int layer, const ModelSurface& above) {
-  const std::map<FaultSide, SideProfile> profiles = profiles_of(layer);
+  const SideProfiles profiles = profiles_of(layer);
   ModelSurface surface{.name = "", .layer = layer, .points = {}, .thickness = {}};
   for (std::size_t p = 0; p < places_.size(); ++p) {
     const Group& group = groups_[places_[p].groups.front()];
     std::optional<double> height;
     if (group.fault >= 0 && places_[p].groups.size() == 1)
-      height = profiles.at({group.fault, group.side[static_cast<std::size_t>(group.fault)]})
-                   .at(along(group, places_[p].at));
+      height = profiles.at(group.fault, group.side[static_cast<std::size_t>(group.fault)],
+                           along(group, places_[p].at));
     const double grids = height ? *height : height_below(places_[p], layer);
     surface.thickness.push_back(std::max(least_, above.points[p].z() - grids));
     const double z = above.points[p].z() - surface.thickness.back();

@@ -108,5 +108,15 @@ TEST(SideProfile, IsLinearBetweenItsPointsAndEndsWithThem) {
   EXPECT_EQ(profile.at(401), std::nullopt);
 }
 
+/// Pillars of a short fault may have places at the top, and none on one side at the base.
+TEST(SideProfiles, HaveNothingOfASideWithoutPoints) {
+  SideProfiles profiles;
+  for (const double along : {0., 100.}) profiles.add(2, 1, along, -2000 + along / 10);
+  EXPECT_EQ(profiles.at(2, 1, 50), -1995);
+  EXPECT_EQ(profiles.at(2, 1, 101), std::nullopt);
+  EXPECT_EQ(profiles.at(2, -1, 50), std::nullopt);
+  EXPECT_EQ(profiles.at(0, 1, 50), std::nullopt);
+}
+
 }  // namespace
 }  // namespace faultsim::grid_scene
