@@ -16,6 +16,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kSamePlace = 1e-6;  // of a cell
+constexpr double kTaken = 0.05;      // of a cell: a point this near is taken for another
 constexpr double kLeastAngle =
     25 * std::numbers::pi / 180;  // below it cells between two lines are slivers
 constexpr double kBend = 5 * std::numbers::pi / 180;  // a point where a line turns more is kept
@@ -37,7 +38,8 @@ class LineJoiner {
   void add(const std::string& name, const std::vector<Vector2d>& points, const std::string& what);
   void join_end(int line, bool is_last, TraceEnd end);
   void join_to_box(int line, Vector2d& end);
-  void join_to_line(int line, Vector2d& end);
+  void join_to_line(int line, bool is_last, Vector2d& end);
+  void drop_overshoot(int line, bool is_last, int other);
   void check_tip(int line, const Vector2d& end);
   void cross_all();
   void cross(int p, int q);
@@ -64,6 +66,7 @@ class LineJoiner {
   double cell_;
   MapLines all_;
   std::vector<Meeting> meetings_;
+  std::vector<Vector2d> refused_tips_;  ///< too close to another line.
 };
 
 void LineJoiner::add(const std::string& name, const std::vector<Vector2d>& points,
@@ -111,12 +114,28 @@ Vector2d LineJoiner::put_on(int line, const Vector2d& at) {
   std::vector<Vector2d>& points = all_.lines[line].points;
   const NearestOnLine nearest = nearest_on_line(points, at);
   for (const std::size_t k : {nearest.segment, nearest.segment + 1})
-    if ((points[k] - nearest.point).norm() <= 0.05 * cell_) return points[k];
+    if ((points[k] - nearest.point).norm() <= kTaken * cell_) return points[k];
   points.insert(points.begin() + static_cast<std::ptrdiff_t>(nearest.segment) + 1, nearest.point);
   return nearest.point;
 }
 
-void LineJoiner::join_to_line(int line, Vector2d& end) {
+/// Of the points by which a line goes past the one it is to end at only the last is left, which is
+/// moved back to it: by the others it would cross it and return.
+void LineJoiner::drop_overshoot(int line, bool is_last, int other) {
+  std::vector<Vector2d>& points = all_.lines[line].points;
+  const std::vector<Vector2d>& past = all_.lines[other].points;
+  if (!is_last) std::ranges::reverse(points);
+  std::size_t first = points.size() - 1;
+  for (std::size_t k = first; k > 0; --k) {
+    if (nearest_on_line(past, points[k]).distance > cell_) break;
+    for (std::size_t j = 0; j + 1 < past.size(); ++j)
+      if (crossing_of(points[k - 1], points[k], past[j], past[j + 1]).allFinite()) first = k;
+  }
+  points.erase(points.begin() + static_cast<std::ptrdiff_t>(first), points.end() - 1);
+  if (!is_last) std::ranges::reverse(points);
+}
+
+void LineJoiner::join_to_line(int line, bool is_last, Vector2d& end) {
   int other = -1;
   NearestOnLine nearest{std::numeric_limits<double>::infinity(), end, 0};
   for (int q = 0; q < static_cast<int>(all_.lines.size()); ++q) {
@@ -148,14 +167,18 @@ void LineJoiner::join_to_line(int line, Vector2d& end) {
              "draw them as one fault with a bend, or let one extend past the other by a cell");
     return;
   }
+  drop_overshoot(line, is_last, other);
   end = put_on(other, nearest.point);
   meetings_.push_back({end, line, other});
 }
 
 void LineJoiner::check_tip(int line, const Vector2d& end) {
   for (int q = 0; q < static_cast<int>(all_.lines.size()); ++q) {
-    if (q == line || is_meeting(end)) continue;
+    const bool ends_here = std::ranges::any_of(
+        meetings_, [&](const Meeting& m) { return m.first == q && m.at == end; });
+    if (q == line || ends_here) continue;
     if (nearest_on_line(all_.lines[q].points, end).distance > 0.5 * cell_) continue;
+    refused_tips_.push_back(end);
     complain(line,
              concat("\"", all_.lines[line].name, "\" ends in the rock at ", map_place(end),
                     ", less than half a cell from \"", all_.lines[q].name, "\""),
@@ -173,7 +196,7 @@ void LineJoiner::join_end(int line, bool is_last, TraceEnd end) {
   // By value: what the end is joined to may be this vector's neighbour, never itself.
   Vector2d at = is_last ? all_.lines[line].points.back() : all_.lines[line].points.front();
   if (end == TraceEnd::at_edge) join_to_box(line, at);
-  if (end == TraceEnd::at_fault) join_to_line(line, at);
+  if (end == TraceEnd::at_fault) join_to_line(line, is_last, at);
   (is_last ? all_.lines[line].points.back() : all_.lines[line].points.front()) = at;
 }
 
@@ -182,7 +205,10 @@ void LineJoiner::cross(int p, int q) {
   for (std::size_t i = 0; i + 1 < first.size(); ++i)
     for (std::size_t j = 0; j + 1 < second.size(); ++j) {
       const Vector2d at = crossing_of(first[i], first[i + 1], second[j], second[j + 1]);
-      if (!at.allFinite()) continue;
+      const auto is_near = [&](const Vector2d& place) {
+        return (place - at).norm() <= kTaken * cell_;
+      };
+      if (!at.allFinite() || std::ranges::any_of(refused_tips_, is_near)) continue;
       const bool is_known = std::ranges::any_of(meetings_, [&](const Meeting& m) {
         const bool is_theirs = (m.first == p && m.second == q) || (m.first == q && m.second == p);
         return is_theirs && (m.at - at).norm() < cell_;
@@ -195,7 +221,7 @@ void LineJoiner::cross(int p, int q) {
       if ((points[near_point + 1] - shared).norm() < (points[near_point] - shared).norm())
         ++near_point;
       const bool is_inner = near_point > 0 && near_point + 1 < points.size();
-      if (is_inner && (points[near_point] - shared).norm() <= 0.05 * cell_)
+      if (is_inner && (points[near_point] - shared).norm() <= kTaken * cell_)
         points[near_point] = shared;
       else
         points.insert(points.begin() + static_cast<std::ptrdiff_t>(there.segment) + 1, shared);
@@ -336,11 +362,12 @@ MapLines LineJoiner::run() {
     }
   }
   if (!problems_.empty()) return std::move(all_);
-  cross_all();
+  // Before crossings are found, as a tip on another line would be one.
   for (int f = 0; f < all_.n_faults; ++f) {
     if (body_.faults[f].first_end == TraceEnd::in_rock) check_tip(f, all_.lines[f].points.front());
     if (body_.faults[f].last_end == TraceEnd::in_rock) check_tip(f, all_.lines[f].points.back());
   }
+  cross_all();
   check_meetings();
   for (int line = 0; problems_.empty() && line < static_cast<int>(all_.lines.size()); ++line) {
     mark_kept(all_.lines[line]);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "tests/unit/horizons/bodies.h"
@@ -65,6 +66,28 @@ TEST(Traces, AnEndAtAFaultIsAPointOfBoth) {
   EXPECT_THAT(lines.lines[0].points, Contains(Vector2d(0, 310)));
 }
 
+/// Two points beyond the other fault, or four on both of its sides, at either end.
+TEST(Traces, AnEndThatOvershootsByPointsIsMovedBack) {
+  const std::vector<Vector2d> two = {{-80, 430}, {-60, 420}, {1500, 420}},
+                              four = {{40, 430}, {-50, 425}, {30, 415}, {-60, 420}, {1500, 420}};
+  for (const bool is_last : {false, true}) {
+    for (std::vector<Vector2d> trace : {two, four}) {
+      LayeredBody body = reservoir_body();
+      if (is_last) std::ranges::reverse(trace);
+      LayeredFault fault = branch(trace.front(), trace.back());
+      fault.trace = trace;
+      if (is_last) std::swap(fault.first_end, fault.last_end);
+      body.faults = {dipping_fault(), fault};
+      MapLines lines = joined(body);
+      std::vector<Vector2d>& points = lines.lines[1].points;
+      if (is_last) std::ranges::reverse(points);
+      EXPECT_EQ(points.front(), Vector2d(0, 430));
+      for (std::size_t k = 1; k < points.size(); ++k) EXPECT_GT(points[k].x(), 50);
+      EXPECT_THAT(lines.lines[0].points, Contains(Vector2d(0, 430)));
+    }
+  }
+}
+
 TEST(Traces, CrossingFaultsShareAPoint) {
   LayeredBody body = reservoir_body();
   body.faults = {dipping_fault(), branch({-1500, -300}, {1500, 700})};
@@ -98,6 +121,33 @@ TEST(Traces, WhatDoesNotFitIsRefusedWithItsPlace) {
               HasSubstr("ends in the rock at x 60, y 300 m, less than half a cell from \"F\""));
   body.faults[1] = branch({0, 300}, {1500, 1950});
   EXPECT_THAT(refusal(body), HasSubstr("half a cell from the edge"));
+}
+
+/// Whichever comes first: it is no meeting of the two.
+TEST(Traces, AnEndInTheRockOnAnotherTraceIsRefusedAsThat) {
+  LayeredFault stem = branch({0, 420}, {1500, 420});
+  stem.first_end = TraceEnd::in_rock;
+  for (const bool is_first : {false, true}) {
+    LayeredBody body = reservoir_body();
+    body.faults = {dipping_fault(), stem};
+    if (is_first) std::swap(body.faults[0], body.faults[1]);
+    std::vector<Problem> problems;
+    meeting_lines(body, problems);
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].pointer, is_first ? "/faults/0/trace" : "/faults/1/trace");
+    EXPECT_THAT(problems[0].what, HasSubstr("\"B\" ends in the rock at x 0, y 420 m, less than "
+                                            "half a cell from \"F\""));
+    EXPECT_THAT(problems[0].cure, HasSubstr("let it end at \"F\""));
+  }
+}
+
+TEST(Traces, ADividerMayEndAtATip) {
+  LayeredBody body = reservoir_body();
+  body.faults = {dipping_fault()};
+  body.faults[0].trace.back() = {0, 1000};
+  body.faults[0].last_end = TraceEnd::in_rock;
+  body.dividers = {{"D", {{-3000, 1000}, {0, 1000}}}};
+  EXPECT_EQ(joined(body).lines[1].points.back(), Vector2d(0, 1000));
 }
 
 TEST(Traces, TwoThatEndAtEachOtherAreAV) {
