@@ -90,7 +90,7 @@ std::vector<figure::Tick> date_ticks(const CasePicture& picture) {
   // Dates have four digits.
   if (start + last > parse_date("9999-12-31").value()) return {};
   int step = 1;  // months
-  for (const int one : {2, 3, 6, 12, 24, 60, 120, 240, 600}) {
+  for (const int one : {2, 3, 6, 12, 24, 60, 120, 240, 600, 1200, 2400, 6000, 12000}) {
     if (last > kMost * kMonthInSeconds * step) step = one;
   }
   std::vector<figure::Tick> ticks;

@@ -47,6 +47,8 @@ bool CaseErrors::within(double tolerance) const {
   return chi_bar <= tolerance && largest_slip <= kSlipTolerance * tolerance;
 }
 
+bool CaseErrors::are_known() const { return std::isfinite(chi_bar) && std::isfinite(largest_slip); }
+
 CaseErrors case_errors(const CaseResult& found, const CaseResult& exact) {
   CaseErrors errors;
   if (end_apart(found, exact)) errors.chi_bar = kInfinity;  // of the rest nothing is known

@@ -236,12 +236,13 @@ bool Builder::is_fine(const std::shared_ptr<const OperatorBasis>& basis, const S
            request_.tolerance;
   }
   const CaseErrors deciding = errors_of_cases(basis, grid, deciding_checks());
-  const bool is_within = deciding.within(cases_.tolerance);
+  const bool seems_fine = deciding.within(cases_.tolerance);
+  const CaseErrors said = seems_fine ? errors_of_cases(basis, grid, other_checks()) : deciding;
+  const bool is_within = seems_fine && said.are_known();
   if (is_within) found = measured(basis, grid);
-  const CaseErrors said = is_within ? errors_of_cases(basis, grid, other_checks()) : deciding;
   found.n_operators = grid.n_nodes();
   found.n_cases = 0;
-  for (const Check& check : is_within ? other_checks() : deciding_checks())
+  for (const Check& check : seems_fine ? other_checks() : deciding_checks())
     found.n_cases += static_cast<int>(check.cases.size());
   found.chi_tolerance = cases_.tolerance;
   found.chi_bar = said.chi_bar;
@@ -252,7 +253,10 @@ bool Builder::is_fine(const std::shared_ptr<const OperatorBasis>& basis, const S
 
 void Builder::refuse(const CaseSurface& found) const {
   const std::string errors =
-      found.chi_bar
+      found.chi_bar && std::isinf(*found.chi_bar)
+          ? "a probing case opens a fault, or ends early, on one of exact and interpolated "
+            "operators alone"
+      : found.chi_bar
           ? concat("χ̄ of its probing cases is off by ", brief(*found.chi_bar),
                    ", their largest slip by ", brief(*found.largest_slip), " of the case's; ",
                    brief(cases_.tolerance), " of χ̄ and ten times that of slip are asked for")

@@ -56,7 +56,10 @@ TEST(DrawCase, HasYearsWhereDatesEnd) {
     for (StepResult& step : result.steps) step.time = step.step * years * kYear / 2;
     return draw_case({result, scene, nullptr, {}}, {CaseChart::history, {}, {}, false});
   };
-  EXPECT_THAT(drawn("1990-01-31", 8009), HasSubstr(">date<"));
+  const std::string last = drawn("1990-01-31", 8009);
+  EXPECT_THAT(last, HasSubstr(">date<"));
+  EXPECT_THAT(last, HasSubstr(">9000<"));
+  EXPECT_THAT(last, Not(HasSubstr(">2500<"))) << "a thousand years apart";
   const std::string beyond = drawn("1990-01-31", 9000);
   EXPECT_THAT(beyond, HasSubstr(">time, years since 1990-01-31<"));
   EXPECT_THAT(beyond, Not(HasSubstr(">date<")));

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "simulator/common/errors.h"
 #include "simulator/surface/sparse_grid.h"
@@ -61,6 +63,37 @@ TEST(SurfaceBuilder, RefusesWhenTheSlipStaysWrong) {
     ADD_FAILURE() << "no refusal";
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("does not reach its tolerance: with 2 operators"));
+  }
+}
+
+/// Half of the check points decide; a case that ends early at one of the others has no error that
+/// could be said either.
+TEST(SurfaceBuilder, RefusesWhereAProbingCaseEndsEarlyOnInterpolatedOperators) {
+  const SurfaceRequest request = over_one_parameter(1e-3, 4);
+  const double last = check_points(1, n_surface_checks(request)).back()[0];
+  std::vector<std::shared_ptr<const FaultOperator>> asked;
+  const auto exact = [&](const Eigen::VectorXd& x, const RunContext& context) {
+    return asked.emplace_back(with_soft_jump(x, context));
+  };
+  bool ends_early = false;
+  const ProbingCases cases = {1, 0.003, [&](int, const Eigen::VectorXd& x, const auto& op) {
+                                const bool is_exact = std::ranges::find(asked, op) != asked.end();
+                                CaseResult result;
+                                result.outcome = Outcome::converged;
+                                result.steps.resize(2);
+                                for (StepResult& step : result.steps) step.faults.resize(1);
+                                if (!ends_early || is_exact || x[0] != last) return result;
+                                result.outcome = Outcome::unstable;
+                                result.steps.pop_back();
+                                return result;
+                              }};
+  EXPECT_EQ(build_surface(request, "name", exact, cases, {}).accuracy.chi_bar, 0);
+  ends_early = true;
+  try {
+    build_surface(request, "name", exact, cases, {});
+    ADD_FAILURE() << "no refusal";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("ends early"));
   }
 }
 
