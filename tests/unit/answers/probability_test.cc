@@ -356,7 +356,8 @@ TEST_F(AnswersTest, AWidthTakesMoreCases) {
   EXPECT_EQ(probability({.condition = "F1.slides", .width = 0.5}).shares.at(0).n_more, 0);
 }
 
-/// χ̄ of F1 is (k + ½) / 200; two histories that are not known may lie on either side.
+/// χ̄ of F1 is (k + ½) / 200; two histories that are not known may lie on either side. The tier of
+/// the cases names an error of 0.011.
 TEST_F(AnswersTest, QuantilesHaveBoundsWhateverTheDistribution) {
   submit("monte-carlo", even(200));
   record();
@@ -365,8 +366,8 @@ TEST_F(AnswersTest, QuantilesHaveBoundsWhateverTheDistribution) {
   };
   const MetricQuantiles all = chi_bar().metrics.at(0);
   EXPECT_NEAR(all.values.at(0).estimate, 0.5, 1e-9);
-  EXPECT_NEAR(all.values.at(0).low.value(), 0.4275, 1e-12) << "the 86th";
-  EXPECT_NEAR(all.values.at(0).high.value(), 0.5725, 1e-12) << "the 115th";
+  EXPECT_NEAR(all.values.at(0).low.value(), 0.4275 - 0.011, 1e-12) << "the 86th";
+  EXPECT_NEAR(all.values.at(0).high.value(), 0.5725 + 0.011, 1e-12) << "the 115th";
   EXPECT_FALSE(all.values.at(1).high) << "200 cases do not bound it from above";
   store_.reset();
   std::filesystem::remove_all(folder_ / "store");

@@ -81,7 +81,7 @@ TEST_F(AnswersTest, SelectedCasesAreNotIndependent) {
 TEST_F(AnswersTest, SamplesOfAFileMayBeCorrelated) {
   submit("samples", even(140));
   record();
-  EXPECT_THAT(analyse_sensitivity(*store_, campaign_, {}).dependence, HasSubstr("of a file"));
+  EXPECT_THAT(analyse_sensitivity(*store_, campaign_, {}).dependence, HasSubstr("from a file"));
 }
 
 /// χ̄ of F1 is its strength, 0.1 to 0.4, whatever the offset: of a grid that is known exactly.

@@ -261,7 +261,7 @@ TEST_F(TiersTest, AWidthIsWorthItsCases) {
   const Answer answer = to_answer(found);
   testing::expect_same_renderings(answer);
   EXPECT_THAT(render_text(answer, 1000),
-              ::testing::HasSubstr("Bounds of F1.slides that are 10 % apart take "));
+              ::testing::HasSubstr("Bounds of F1.slides that are 10 % apart need "));
   EXPECT_EQ(render_json(answer).at("numbers").at(2).at("high_cases"), slides[0].numbers->n);
 }
 

@@ -81,7 +81,8 @@ TEST_F(Undecided, QuantilesAllowForWhatTheCellsLeaveOpen) {
     return find_quantiles(*store_, campaign_, {.metrics = metric, .at = {0.5}}).metrics.at(0);
   };
   EXPECT_EQ(median("F1.chi_bar").n_unresolved, 0);
-  EXPECT_NEAR(median("F1.chi_bar").values.at(0).low.value(), 0.4275, 1e-12);
+  EXPECT_NEAR(median("F1.chi_bar").values.at(0).low.value(), 0.4275 - 0.011, 1e-12)
+      << "by the tier";
   const MetricQuantiles slip = median("F1.max_slip");
   EXPECT_EQ(slip.n_unresolved, 3);
   EXPECT_EQ(slip.n, 200);

@@ -118,7 +118,7 @@ TEST_F(WhatMatters, AMissingRowTakesItsEffectsAlong) {
   EXPECT_EQ(s.n_without, 1);
   EXPECT_EQ(s.metrics.at(0).effects.at(0).n, 59);
   EXPECT_EQ(s.metrics[0].effects.at(1).n, 59);
-  EXPECT_THAT(render_text(to_answer(s), 1000), HasSubstr("179 of 180 rows; those without"));
+  EXPECT_THAT(render_text(to_answer(s), 1000), HasSubstr("179 of 180 rows; each without"));
 }
 
 TEST_F(WhatMatters, TrajectoriesAreNotTakenApart) {
@@ -155,7 +155,7 @@ TEST_F(WhatMatters, OneAtATimeIsATornado) {
   EXPECT_EQ(moves[1].at("parameter"), "friction");
   EXPECT_NEAR(moves[1].at("change").get<double>(), 0.15, 1e-12);
   EXPECT_EQ(moves[4].at("case"), 5);
-  EXPECT_THAT(render_text(answer, 1000), HasSubstr("was not run"));
+  EXPECT_THAT(render_text(answer, 1000), HasSubstr("was not computed"));
   EXPECT_NE(first_chart(answer).find("<svg"), std::string::npos);
 }
 

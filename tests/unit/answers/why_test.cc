@@ -109,7 +109,7 @@ TEST_F(AnswersTest, WhyListsTheNearestOfFewAndRefusesWhatIsNotRanked) {
   const Answer answer = to_answer(found);
   const auto document = render_json(answer);
   EXPECT_THAT(document["no_slopes"].get<std::string>(),
-              HasSubstr("take 20 cases with the same words"));
+              HasSubstr("need 20 cases with the same words"));
   EXPECT_EQ(document["nearest"].size(), 8u);
   testing::expect_the_same_numbers(answer);
   testing::expect_to_fit(answer);
@@ -133,7 +133,7 @@ TEST_F(AnswersTest, WhyHasLocalSlopesOfARandomSample) {
   EXPECT_NEAR(document["slopes"][1]["slope"].get<double>(), 0, 1e-9);
   EXPECT_LT(document["slopes"][0]["per_deviation_error"].get<double>(), 1e-9);
   EXPECT_THAT(answer.headline.at(2),
-              HasSubstr("Near this case chi_bar changes most with strength"));
+              HasSubstr("Near this case, chi_bar changes most with strength"));
   testing::expect_the_same_numbers(answer);
   testing::expect_to_fit(answer);
 }

@@ -147,11 +147,11 @@ TEST(TableReader, RefusesCharactersThatAreNoneAndQuotesThatDoNotClose) {
   using namespace std::string_literals;
   EXPECT_THAT(refusal("x [m]\n19\0"
                       "136.2\n"s),
-              HasSubstr("t.csv:2: holds \"\\u0000\""));
-  EXPECT_THAT(refusal("x\x1b [m]\n1\n"), HasSubstr("t.csv:1: holds \"\\u001b\""));
-  EXPECT_THAT(refusal("x [m]\n1\xFF\n"), HasSubstr("t.csv:2: holds \"\\xff\""));
-  EXPECT_THAT(refusal("x [m]\n1\xE2\x80\xAE\n"), HasSubstr("t.csv:2: holds \"\\u202e\""));
-  EXPECT_THAT(refusal("\xFF\xFEx\0 \0"s), HasSubstr("t.csv:1: holds \"\\xff\""));
+              HasSubstr("t.csv:2: contains \"\\u0000\""));
+  EXPECT_THAT(refusal("x\x1b [m]\n1\n"), HasSubstr("t.csv:1: contains \"\\u001b\""));
+  EXPECT_THAT(refusal("x [m]\n1\xFF\n"), HasSubstr("t.csv:2: contains \"\\xff\""));
+  EXPECT_THAT(refusal("x [m]\n1\xE2\x80\xAE\n"), HasSubstr("t.csv:2: contains \"\\u202e\""));
+  EXPECT_THAT(refusal("\xFF\xFEx\0 \0"s), HasSubstr("t.csv:1: contains \"\\xff\""));
   for (const char* row : {"\"1", "\"1\"\"", "\"", "1\"", "\"1\"2", "1\"\"", "\"1\" \"2\""})
     EXPECT_THAT(refusal("x [m]\n" + std::string(row) + "\n3\n"), HasSubstr("t.csv:2: has a quote"))
         << row;

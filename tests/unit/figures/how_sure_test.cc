@@ -155,7 +155,7 @@ TEST_F(HowSureTest, SaysWhatADearerTierSaysOfTheSameSample) {
   const std::string first = expected.substr(0, expected.find('\n'));
   EXPECT_THAT(said(low), HasSubstr(first));
   EXPECT_THAT(said(low), Not(HasSubstr(kNotMeasured)));
-  EXPECT_THAT(page(low), HasSubstr("What sweep-standard says"));
+  EXPECT_THAT(page(low), HasSubstr("Answers at the tier of sweep-standard"));
   EXPECT_THAT(said(run("other", "standard", 5)), HasSubstr(kNotMeasured));
 }
 

@@ -333,7 +333,7 @@ std::string why_refused(const std::string& text) {
 TEST(CellColumns, AreRefusedWhereIndicesCannotBeMeant) {
   const std::string values = ", 1990-01-01 [bar]\n";
   EXPECT_THAT(why_refused("i, k, " + kPlace + values + "1, 1, 0, 0, 2000, 9\n"),
-              HasSubstr("points.csv:1: has i and k and no j; give all of i, j and k"));
+              HasSubstr("points.csv:1: has i and k but no j; give all of i, j and k"));
   EXPECT_THAT(why_refused("i, I, j, k, " + kPlace + values), HasSubstr("two columns i"));
   EXPECT_THAT(why_refused(kIndexed + values + "1, 1, 1, 0, 0, 2000, 9\n1, 1, 1.5, 0, 0, 2010, 9\n" +
                           "1, one, 3, 0, 0, 2010, 9\n"),

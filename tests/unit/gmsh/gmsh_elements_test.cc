@@ -187,7 +187,7 @@ TEST(GmshElements, TellsAllThatIsWrongInTheOrderOfBytes) {
   const std::string text = refusal(bytes);
   EXPECT_THAT(text,
               testing::MatchesRegex(concat(
-                  "mesh.msh: byte ", bytes.find("2 4 \""), ": .* is not a char.*",
+                  "mesh.msh: byte ", bytes.find("2 4 \""), ": .* is not a text char.*",
                   "\nmesh.msh: byte ", nodes + 32 + 52 + 116 + 20 + 8, ": node 2 is given twice.*",
                   "\nmesh.msh: byte ", bytes.find("$Elements\n") + 10 + 32 + 52 + 60 + 60,
                   ": elements of type 140 are not known here.*")));

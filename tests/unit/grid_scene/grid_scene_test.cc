@@ -347,7 +347,7 @@ TEST(ModelCompartments, HaveAllPartsThatFaultsDivideThemInto) {
     EXPECT_GT(one.also[0].x(), 1200);
     EXPECT_EQ(columns_in_none(all), std::vector<int>());
     EXPECT_EQ(all.made.scene["geometry"]["compartments"][0]["also_inside"].size(), 1u);
-    EXPECT_TRUE(says(all.made.remarks, "is in 2 parts that lines of the model bound"));
+    EXPECT_TRUE(says(all.made.remarks, "is in 2 parts between lines of the model"));
     EXPECT_FALSE(says(all.made.remarks, "in no compartment"));
     EXPECT_EQ(says(all.made.remarks, "is part of another one in the model"), is_layered);
   }
@@ -427,31 +427,36 @@ ModelLines lines_in_a_box(const std::vector<ModelFault>& faults) {
   return lines;
 }
 
-/// From the west across a trace that runs north, and back to it.
-ModelFault hooked(const Vector2d& at) {
-  return {.name = "",
-          .trace = {at - Vector2d(1000, 20), at + Vector2d(45, 0), at + Vector2d(0, 80)},
-          .last_end = LineEnd::fault};
+/// Two faults, 30 m from each other where a divider from west to east crosses both.
+std::vector<ModelFault> near_each_other(double x) {
+  return {{.name = "", .trace = {{x, -2000}, {x, 2000}}},
+          {.name = "", .trace = {{x + 300, -2000}, {x + 30, 0}, {x + 300, 2000}}}};
 }
 
-/// F2 crosses F1 and comes back to it; F3 ends at F2, and with F2 left out would end nowhere.
+ModelLines with_divider(const std::vector<ModelFault>& faults) {
+  ModelLines lines = lines_in_a_box(faults);
+  lines.dividers.push_back({"across", {{-5000, 0}, {5000, 0}}});
+  return lines;
+}
+
+/// Without F2 the divider fits, and F3, which ends at F2, has to end in the rock.
 TEST(LineCheck, BlamesAFaultThatOthersEndAt) {
-  const ModelFault first{.name = "", .trace = {{0, -2000}, {0, 2000}}},
-      third{.name = "", .trace = {{-500, -800}, {-500, 9.6}}, .last_end = LineEnd::fault};
-  const std::optional<Misfit> misfit =
-      first_misfit(lines_in_a_box({first, hooked({0, 20}), third}));
+  std::vector<ModelFault> faults = near_each_other(0);
+  faults.push_back(
+      {.name = "", .trace = {{1500, -1500}, {232.5, -1500}}, .last_end = LineEnd::fault});
+  const std::optional<Misfit> misfit = first_misfit(with_divider(faults));
   ASSERT_TRUE(misfit);
-  EXPECT_THAT(misfit->what, HasSubstr("too close"));
+  EXPECT_THAT(misfit->what, HasSubstr("meets two others"));
   EXPECT_EQ(misfit->fault, 1);
 }
 
 /// Two such places: no fault alone cures both.
 TEST(LineCheck, BlamesOneOfTwoFaultsThatDoNotFitOnRequest) {
-  const ModelFault first{.name = "", .trace = {{0, -2000}, {0, 2000}}},
-      third{.name = "", .trace = {{3000, -2000}, {3000, 2000}}};
-  const ModelLines lines = lines_in_a_box({first, hooked({0, 20}), third, hooked({3000, 1020})});
-  const std::optional<Misfit> of_all = first_misfit(lines),
-                              of_the_first = first_misfit(lines, Blame::of_the_first);
+  std::vector<ModelFault> faults = near_each_other(-1500);
+  for (const ModelFault& one : near_each_other(1500)) faults.push_back(one);
+  const std::optional<Misfit> of_all = first_misfit(with_divider(faults)),
+                              of_the_first =
+                                  first_misfit(with_divider(faults), Blame::of_the_first);
   ASSERT_TRUE(of_all && of_the_first);
   EXPECT_EQ(of_all->fault, -1);
   EXPECT_TRUE(of_the_first->fault == 1 || of_the_first->fault == 3) << of_the_first->fault;

@@ -110,7 +110,7 @@ TEST(DepthSurface, HangsFromPointsWhateverTheirOrder) {
 }
 
 TEST(DepthSurface, WhatIsNoSurfaceIsRefused) {
-  EXPECT_THAT(refusal(ConstantDepth{std::nan("")}), HasSubstr("no number"));
+  EXPECT_THAT(refusal(ConstantDepth{std::nan("")}), HasSubstr("not a number"));
   EXPECT_THAT(refusal(GridDepth{{0, 0}, {1, 1}, 2, 2, {1, 2, 3}}), HasSubstr("has 3 depths"));
   EXPECT_THAT(refusal(GridDepth{{0, 0}, {0, 1}, 2, 2, {1, 2, 3, 4}}), HasSubstr("no spacing"));
   EXPECT_THAT(refusal(GridDepth{{5, 6}, {10, 20}, 2, 2, {1, 2, 3, std::nan("")}}),

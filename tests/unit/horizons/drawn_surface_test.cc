@@ -220,7 +220,7 @@ TEST(DrawnSurface, WhatIsNoFaultIsRefusedWithItsPlace) {
   DrawnSurface two = triangulated(-2900, -1300, on_plane);
   std::erase_if(two.triangles,
                 [&](const std::array<int, 3>& t) { return std::abs(two.points[t[0]].y()) < 100; });
-  EXPECT_THAT(refused(two), HasSubstr("is cut in 2 lines at the depth of traces, 2000 m"));
+  EXPECT_THAT(refused(two), HasSubstr("is cut along 2 lines at the depth of traces, 2000 m"));
   // A branch to the east from the middle.
   DrawnSurface branched = triangulated(-2900, -1300, on_plane);
   const auto n_first = static_cast<int>(branched.points.size());
@@ -230,7 +230,7 @@ TEST(DrawnSurface, WhatIsNoFaultIsRefusedWithItsPlace) {
     branched.triangles.push_back({13 * j + 6, n_first + j, 13 * j + 19});
     branched.triangles.push_back({13 * j + 19, n_first + j, n_first + j + 1});
   }
-  EXPECT_THAT(refused(branched), HasSubstr("is cut in 3 lines at the depth of traces"));
+  EXPECT_THAT(refused(branched), HasSubstr("is cut along 3 lines at the depth of traces"));
   const auto around = [](double u, double) {
     return Vector2d(800 * std::cos(2 * std::numbers::pi * u),
                     800 * std::sin(2 * std::numbers::pi * u));

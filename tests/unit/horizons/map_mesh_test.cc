@@ -132,7 +132,7 @@ TEST(Compartments, MayHaveSeveralParts) {
                     problems);
   ASSERT_EQ(problems.size(), 2u);
   EXPECT_EQ(problems[0].pointer, "/compartments/1/also_inside/0");
-  EXPECT_THAT(problems[0].what, testing::HasSubstr("\"b\" and \"a\" are one part of the map"));
+  EXPECT_THAT(problems[0].what, testing::HasSubstr("\"b\" and \"a\" are in one part of the map"));
   EXPECT_EQ(problems[1].pointer, "/compartments/1/also_inside/1");
 }
 

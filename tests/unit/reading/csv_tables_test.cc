@@ -160,7 +160,7 @@ TEST_F(CsvTables, ThatAreRefusedAreNotEmbedded) {
     write("p.csv", "time [year], west [bar]\n0, 0\n4, -1" + odd + "00\n");
     embed_tables(document_);
     EXPECT_FALSE(document_.value.contains("tables"));
-    EXPECT_THAT(refusal(), testing::HasSubstr("/pressure_csv: p.csv line 3: holds \"\\"));
+    EXPECT_THAT(refusal(), testing::HasSubstr("/pressure_csv: p.csv line 3: contains \"\\"));
   }
 }
 

@@ -413,7 +413,7 @@ TEST_F(HorizonsScene, WhatCannotBeBuiltIsSaidWithItsPlace) {
   EXPECT_THAT(said({{"/geometry/compartments/1/inside", R"(["-600 m", "0 m"])"}}),
               HasSubstr("/geometry/compartments/1/inside: "));
   EXPECT_THAT(said({{"/geometry/compartments/0/also_inside", R"([["600 m", "0 m"]])"}}),
-              HasSubstr("are one part of the map"));
+              HasSubstr("are in one part of the map"));
   JsonDocument bare = document();
   bare.value["faults"][0].erase("trace");
   bare.value.erase("mesh");

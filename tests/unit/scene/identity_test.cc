@@ -204,7 +204,10 @@ TEST(CaseIdentity, SaysWhereABlocksOwnOverpressureMeetsAnEdgeOfTheColumns) {
   EXPECT_THAT(text({own, {"/geometry/blocks/1/offset", "200 m"}}), says(true)) << "top at the base";
   EXPECT_THAT(text({}), says(false));
   EXPECT_THAT(text({own, {"/geometry/blocks/1/offset", "50 m"}}), says(false));
-  EXPECT_THAT(text({own, {"/initial_state/overpressure", "0 bar"}}), says(false));
+  EXPECT_THAT(text({own,
+                    {"/initial_state/overpressure", "0 bar"},
+                    {"/stages/0/pressure_change", "-190 bar"}}),
+              says(false));
 }
 
 TEST(CaseIdentity, FollowsABlockToAnEdgeOfTheColumn) {

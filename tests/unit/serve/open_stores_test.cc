@@ -15,6 +15,8 @@ class Reader {
   explicit Reader(const std::filesystem::path& folder) {
     EXPECT_EQ(pipe(questions_) + pipe(answers_), 0);
     child_ = fork();
+    close(child_ != 0 ? questions_[0] : questions_[1]);
+    close(child_ != 0 ? answers_[1] : answers_[0]);
     if (child_ != 0) return;
     constexpr unsigned kNobody = 65534;
     if (geteuid() == 0 && setresuid(kNobody, kNobody, kNobody) != 0) _exit(1);
@@ -31,6 +33,7 @@ class Reader {
   }
   ~Reader() {
     close(questions_[1]);
+    close(answers_[0]);
     waitpid(child_, nullptr, 0);
   }
   Reader(const Reader&) = delete;

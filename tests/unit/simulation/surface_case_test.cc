@@ -277,7 +277,7 @@ TEST(SurfaceCase, IsRefusedWhereItCannotBe) {
                     west = R"({"parameter": "/geometry/blocks/0/offset", "from": "-9 m",
                                "to": "140 m"})";
   EXPECT_THAT(refusal_of({with(east), {"/geometry/blocks/1/mesh_offset", "100 m"}}),
-              HasSubstr("holds 0 m"));
+              HasSubstr("contains 0 m"));
   EXPECT_THAT(refusal_of({with(east + "," + west)}), HasSubstr("two blocks"));
   EXPECT_THAT(
       refusal_of({with(R"({"parameter": "salt_stiffness", "from": "60 m", "to": "1 GPa"})")}),
