@@ -203,7 +203,7 @@ std::optional<std::size_t> corner_to_drop(const Polyline& line, double shortest)
   return std::nullopt;
 }
 
-/// Warns where more than a few active columns lie outside of the outlines.
+/// Warns where more than a few active columns lie outside the outlines.
 void say_outside(const ColumnMap& map, const std::vector<Polyline>& outlines, double reference_z,
                  Remarks& remarks) {
   constexpr double kFew = 0.03;
@@ -222,7 +222,7 @@ void say_outside(const ColumnMap& map, const std::vector<Polyline>& outlines, do
   if (n_outside <= kFew * n_active) return;
   remarks.push_back({RemarkKind::warning,
                      concat(n_outside, " of ", counted(n_active, "active column", "active columns"),
-                            " lie outside of the outline: their pressures count with the "
+                            " lie outside the outline: their pressures count with the "
                             "compartment that is nearest"),
                      "/geometry/dividers"});
 }
@@ -256,8 +256,8 @@ std::vector<Polyline> active_outlines(const ColumnMap& map, double cell, double 
     remarks.push_back(
         {RemarkKind::choice,
          concat("the outline of the active map leaves out ",
-                counted(mask.n_dropped, "column", "columns"), " that stick out, and takes in ",
-                counted(mask.n_filled, "inactive one", "inactive ones")),
+                counted(mask.n_dropped, "column that sticks out", "columns that stick out"),
+                ", and takes in ", counted(mask.n_filled, "inactive one", "inactive ones")),
          ""});
   say_outside(map, outlines, reference_z, remarks);
   return outlines;

@@ -67,7 +67,8 @@ struct BodyLayer {
   bool is_fine = false;
 };
 
-/// Parts of the map, each bounded by faults and dividers (and the box), with a region in some layers.
+/// Parts of the map, each bounded by faults and dividers (and the box), with a region in some
+/// layers.
 struct Compartment {
   std::string name;
   Eigen::Vector2d inside;   ///< a point of it, at the depth of traces.

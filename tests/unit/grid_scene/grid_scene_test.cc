@@ -509,7 +509,7 @@ TEST(Outline, HoldsTheColumnsOfLongNarrowCells) {
   for (std::size_t k = 0; k < outline.size(); ++k)
     area += cross_product(outline[k], outline[(k + 1) % outline.size()]) / 2;
   EXPECT_NEAR(area, 250 * 8000, 0.05 * 250 * 8000);
-  EXPECT_FALSE(says(all.made.remarks, "outside of the outline"));
+  EXPECT_FALSE(says(all.made.remarks, "outside the outline"));
 }
 
 TEST(Outline, SaysHowManyColumnsItLeavesOut) {
@@ -519,8 +519,8 @@ TEST(Outline, SaysHowManyColumnsItLeavesOut) {
     plan.inactive.push_back({13, j, -1});
     if (j < 4) plan.inactive.insert(plan.inactive.end(), {{14, j, -1}, {15, j, -1}});
   }
-  EXPECT_TRUE(says(scene_of(made(plan)).made.remarks,
-                   "8 of 104 active columns lie outside of the outline"));
+  EXPECT_TRUE(
+      says(scene_of(made(plan)).made.remarks, "8 of 104 active columns lie outside the outline"));
 }
 
 TEST(GridPictures, SayWhatWasRecognised) {
