@@ -60,6 +60,23 @@ struct Report {
 };
 
 /// The answer in sentences.
+/// "Most often it is F2 in gas_storage: 12 of 60 cases, 20 %."; "" where none slides in any stage.
+std::string most_often(const Report& report) {
+  const std::string in_stage = ".slides in ";
+  Probability all =
+      find_probability(report.store, report.campaign, {.confidence = report.request.confidence});
+  std::erase_if(all.shares, [&](const Share& share) {
+    return share.counts.n_holds == 0 || share.label.find(in_stage) == std::string::npos;
+  });
+  if (all.shares.empty()) return "";
+  const Share& most = *std::ranges::max_element(
+      all.shares, {}, [](const Share& share) { return share.counts.n_holds; });
+  const std::size_t end_of_name = most.label.find(in_stage);
+  return concat(" Most often it is ", most.label.substr(0, end_of_name), " in ",
+                most.label.substr(end_of_name + in_stage.size()), ": ",
+                share_sentence(most.counts, all.sampling, report.request.confidence), ".");
+}
+
 void add_summary(Report& report) {
   const CampaignInfo& c = report.campaign;
   const auto counts = count_outcomes(report.store, c);
@@ -80,8 +97,8 @@ void add_summary(Report& report) {
   const auto [slides, sampling] = counts_of("slides");
   const ShareCounts jumps = counts_of("jumps").first;
   report.page.paragraph(
-      concat("A fault slides in ", share_sentence(slides, sampling, report.request.confidence),
-             ". ",
+      concat("A fault slides in ", share_sentence(slides, sampling, report.request.confidence), ".",
+             most_often(report), " ",
              jumps.n_holds + jumps.n_undecided == 0
                  ? std::string("No case has a slip event.")
                  : concat("A slip event happens in ",

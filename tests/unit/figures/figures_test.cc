@@ -267,9 +267,11 @@ TEST_F(FiguresTest, OutcomesAreCountedAsTheStoreHasThem) {
 TEST_F(FiguresTest, ThePageSaysTheAnswerAndHasNothingThatBreaksOut) {
   submit(40, 40);
   const std::string page = report_page(*store_, campaign_, {.program = "faultsweep test"});
-  EXPECT_THAT(page,
-              HasSubstr("A fault slides in 20 of 40 cases, 50 % (33.8 to 66.2 %). No case has a "
-                        "slip event. Bounds have a confidence of 95 %."));
+  EXPECT_THAT(
+      page,
+      HasSubstr("A fault slides in 20 of 40 cases, 50 % (33.8 to 66.2 %). Most often it is F1 in "
+                "primary_production: 20 of 40 cases, 50 % (33.8 to 66.2 %). No case has a "
+                "slip event. Bounds have a confidence of 95 %."));
   EXPECT_THAT(page, Not(HasSubstr("<b onload")));
   EXPECT_THAT(page, Not(HasSubstr("/somebody/secret")));  // no paths of the machine
   EXPECT_THAT(page, Not(HasSubstr("src=")));              // nothing is loaded
@@ -355,8 +357,10 @@ TEST_F(FiguresTest, WordsBesideNumbersAreShownWhole) {
   EXPECT_THAT(page, HasSubstr(">cut</th>"));
   for (const char* label : {"-100 bar", "mean of both", "load steps as given", "infill 2"})
     EXPECT_THAT(page, HasSubstr(concat("<td>", label, "</td>")));
-  EXPECT_THAT(page, HasSubstr("A fault slides in 2 of 2 cases, 100 % (50 to 100 %: 1 undecided by "
-                              "the cells). No case has a slip event."));
+  EXPECT_THAT(page,
+              HasSubstr("A fault slides in 2 of 2 cases, 100 % (50 to 100 %: 1 undecided by "
+                        "the cells). Most often it is F1 in primary_production: 2 of 2 cases, "
+                        "100 %. No case has a slip event."));
 }
 
 /// Nobody may read that 13 of 24 slide where 20 of the 24 hang on the cells.
