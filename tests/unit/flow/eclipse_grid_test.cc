@@ -14,8 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using Opm::EclIO::EclOutput;
+using testing::AllOf;
+using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
 
 /// 2 x 1 x 1 cells.
@@ -68,7 +71,9 @@ class EclipseGridFile : public testing::Test {
   }
   EclipseGrid read() const { return read_eclipse_grid(folder_ / "CASE.EGRID"); }
   void expect_refused(const std::string& what) const {
-    EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(HasSubstr(what)));
+    // The name of the grid once, and no place in the sources of a library.
+    const auto is_plain = Not(AnyOf(HasSubstr("CASE.EGRID: CASE.EGRID"), HasSubstr(".cpp")));
+    EXPECT_THAT([&] { read(); }, ThrowsMessage<InputError>(AllOf(HasSubstr(what), is_plain)));
   }
 
   fs::path folder_;
