@@ -101,6 +101,8 @@ struct NodeViolation {
   double misaligned = 0;   ///< ||t'_T| Δg_T − t'_T |Δg_T|| / |Δg_T|, Pa.
   double open_traction = 0;
   double worst() const;  ///< NaN where any is.
+  /// worst() in units of a tolerance, which may be 0; without any violation 0.
+  double over(double tolerance) const { return worst() == 0 ? 0 : worst() / tolerance; }
 };
 /// Checks (3)–(5) at one node, with nothing from the solver's residual but with its friction law:
 /// by this a step is accepted. What judges from outside is judge.h.

@@ -41,7 +41,7 @@ std::string failure_text(const ContactProblem& problem, const SubStep& sub_step,
     over += at.over_limit > tolerance;
     against += at.below_limit > tolerance || at.misaligned > tolerance;
     loaded += at.open_traction > tolerance;
-    const double relative = at.worst() / tolerance;
+    const double relative = at.over(tolerance);
     if (worst_node < 0 || (!std::isnan(worst) && !(relative <= worst))) {
       worst_node = k;
       worst = relative;

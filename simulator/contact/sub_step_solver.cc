@@ -135,7 +135,7 @@ bool SubStepSolver::verified() const {
 double SubStepSolver::residual() const {
   double worst = 0;
   for (int k = 0; k < problem_.n_nodes(); ++k) {
-    worst = worse(worst, check_node(problem_, sub_step_, k).worst() / sub_step_.tolerance[k]);
+    worst = worse(worst, check_node(problem_, sub_step_, k).over(sub_step_.tolerance[k]));
   }
   return worst;
 }

@@ -55,7 +55,9 @@ TEST(NodeViolation, HidesNoNan) {
     EXPECT_EQ(violation.worst(), 2);
     violation.*one = kNan;
     EXPECT_TRUE(std::isnan(violation.worst()));
+    EXPECT_TRUE(std::isnan(violation.over(1)));
   }
+  EXPECT_EQ(NodeViolation().over(0), 0) << "a free surface of no strength has no tolerance";
   TwoNodes given;
   const ContactProblem problem(given.op, given.laws);
   for (const FaultState state : {FaultState::slip, FaultState::open}) {
