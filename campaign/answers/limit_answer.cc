@@ -84,7 +84,8 @@ Answer to_answer(const LimitTable& table, long top) {
                      "nothing was computed between tried values with the same answer."));
   if (!all_resolved(table)) {
     answer.note(
-        "The cells do not resolve everywhere whether it happens: [safe, unsafe] is the result on "
+        "The cells or their error leave open in places whether it happens: [safe, unsafe] is the "
+        "result on "
         "these cells; `surely` gives the surely safe and the surely unsafe value, between which it "
         "is undecided. Both are values that were tried; smaller cells bring them closer together.");
   }

@@ -147,18 +147,18 @@ std::string sentence_of(const Quantiles& q, const MetricQuantiles& one) {
   return text + ".";
 }
 
-/// What the cells leave open of a metric, and its measured error; "" = nothing.
+/// What the cells leave open of a metric, and its error; "" = nothing.
 std::string open_note(const Quantiles& q, const MetricQuantiles& one) {
   const bool is_sample = q.sampling.is_random;
   std::string text;
   if (one.n_unresolved > 0)
-    text =
-        concat("In ", one.n_unresolved, " cases the cells leave ", one.metric.name, " undecided: ",
-               is_sample ? "the quantile takes them as computed, bounds allow for any value."
-                         : "they are taken as computed.");
+    text = concat("In ", counted(one.n_unresolved, "case", "cases"), " the cells leave ",
+                  one.metric.name, " undecided: ",
+                  is_sample ? "the quantile takes them as computed, bounds allow for any value."
+                            : "they are taken as computed.");
   if (one.error > 0 && is_sample)
     text += concat(text.empty() ? "" : " ", "Bounds of ", one.metric.name,
-                   " are further away by its largest measured error of ",
+                   " are further away by its largest error, measured or stated by the tier, of ",
                    in_unit(one.error, unit_of(q, one), 2), ".");
   return text;
 }

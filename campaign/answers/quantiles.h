@@ -22,7 +22,7 @@ struct MetricQuantiles {
   long n = 0;          ///< rows with a value.
   long n_without = 0;  ///< full histories without one, such as the magnitude of no event: left out.
   long n_unresolved = 0;  ///< full histories of which the cells leave it open.
-  double error = 0;       ///< that was measured of it at the tier of the cases; 0 = was not.
+  double error = 0;       ///< its largest, measured or stated by the tier; 0 = not known.
   /// Per QuantileRequest::at; none where no row has a value. Of a random sample with bounds that
   /// hold whatever the distribution and whatever is undecided. Of other designs there is no
   /// distribution: the order statistic of what was run, that is the smallest of its values that no
@@ -41,7 +41,7 @@ struct Quantiles {
 
 /// Rows without a history to its end, and those whose value the cells leave open, may have any
 /// value: the lower bound is that with all of them below, the upper one that with all of them
-/// above, and each is further away by the measured error. The quantile itself is of what was
+/// above, and each is further away by its error. The quantile itself is of what was
 /// computed. Throws InputError on wrong metrics or shares.
 Quantiles find_quantiles(const Store& store, const CampaignInfo& campaign,
                          const QuantileRequest& request);

@@ -59,7 +59,6 @@ struct Report {
   faultsim::HtmlPage page = faultsim::HtmlPage(campaign.name);
 };
 
-/// The answer in sentences.
 /// "Most often it is F2 in gas_storage: 12 of 60 cases, 20 %."; "" where none slides in any stage.
 std::string most_often(const Report& report) {
   const std::string in_stage = ".slides in ";
@@ -77,6 +76,7 @@ std::string most_often(const Report& report) {
                 share_sentence(most.counts, all.sampling, report.request.confidence), ".");
 }
 
+/// The answer in sentences.
 void add_summary(Report& report) {
   const CampaignInfo& c = report.campaign;
   const auto counts = count_outcomes(report.store, c);

@@ -13,6 +13,14 @@ namespace faultsweep {
 
 namespace {
 
+/// Whether parameters of a group change the tier or the sizes of cells.
+bool varies_cells(json group) {
+  group.erase("scene");
+  group.erase("set");  // is in the scene
+  const std::string text = group.dump();
+  return text.find("\"/tier") != std::string::npos || text.find("\"/mesh") != std::string::npos;
+}
+
 constexpr const char* kDefaultMetric = "activated_area";
 
 Expression parse_number(const std::string& text, const CampaignInfo& campaign,
@@ -170,7 +178,8 @@ std::string common_tier(const Store& store, const CampaignInfo& campaign) {
     if (!group.contains("scene")) return "";
     const json& scene = group.at("scene");
     const std::string own = scene.value("tier", std::string());
-    const bool has_sizes = scene.contains("mesh") && !scene["mesh"].empty();
+    const bool has_sizes =
+        (scene.contains("mesh") && !scene["mesh"].empty()) || varies_cells(group);
     if (own.empty() || has_sizes || (!tier.empty() && own != tier)) return "";
     tier = own;
   }

@@ -18,7 +18,7 @@ enum class Held {
 };
 
 /// Conditions on cases as columns of a query over them, one for each: what is known of them, with
-/// what the cells do not resolve and the campaign's measured errors left open
+/// what the cells do not resolve and the campaign's errors (stated_errors_of) left open
 /// (expression/expression.h).
 class VerdictColumns {
  public:

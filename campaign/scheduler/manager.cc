@@ -73,20 +73,21 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
   commit();
 }
 
-bool Manager::try_store(const std::function<void()>& work) {
+bool Manager::try_store(const std::function<void()>& work, Access access) {
   try {
     work();
   } catch (const StoreBusy&) {
     note_lock();
     return false;
   }
+  if (access == Access::reads) return true;  // which a writer elsewhere need not hold up
   if (locked_ && lock_is_noted_) display_.note("the store is free again");
   locked_ = lock_is_noted_ = false;
   return true;
 }
 
-void Manager::insist(const std::function<void()>& work) {
-  while (!try_store(work)) {
+void Manager::insist(const std::function<void()>& work, Access access) {
+  while (!try_store(work, access)) {
     if (!plan_ && options_.is_stopped && options_.is_stopped())
       throw StoreBusy("stopped while another process had locked the store; nothing was begun");
   }
@@ -117,15 +118,18 @@ void Manager::note_event(const std::string& kind, const std::string& text) {
 void Manager::take_work() {
   std::vector<WaitingFamily> waiting;
   std::vector<Store::FamilyProgress> known;
-  insist([&] {
-    campaign_ = store_.campaign(campaign_.name);
-    waiting = store_.waiting_families(campaign_.id);
-    known = store_.family_progress(campaign_.id);
-  });
+  insist(
+      [&] {
+        campaign_ = store_.campaign(campaign_.name);
+        waiting = store_.waiting_families(campaign_.id);
+        known = store_.family_progress(campaign_.id);
+      },
+      Access::reads);
   n_incomplete_ = campaign_.n_done - campaign_.n_complete();
   std::vector<FamilyWork> work;
   for (const WaitingFamily& family : waiting) {
     work.push_back(work_of(family, store_));
+    for (const std::int64_t id : family.cases) fields_only_.erase(id);  // put back as a whole
     fields_only_.insert(family.fields_only.begin(), family.fields_only.end());
   }
   plan_->add(std::move(work));
@@ -140,7 +144,7 @@ void Manager::take_work() {
 bool Manager::take_requeued() {
   if (plan_->stopped() || chose_fields_) return false;
   long n_waiting = 0;
-  insist([&] { n_waiting = store_.campaign(campaign_.name).n_waiting; });
+  insist([&] { n_waiting = store_.campaign(campaign_.name).n_waiting; }, Access::reads);
   if (n_waiting == 0) return false;
   const std::string text = concat(counted(n_waiting, "case waits", "cases wait"), " again");
   note_event("requeued", text);
@@ -156,7 +160,7 @@ bool Manager::take_next_round() {
   if (!is_asked) return true;  // in the next turn again, or it was recorded and its cases wait
   if (!is_found) return false;
   RoundRecord round;
-  insist([&] { round = store_.rounds(campaign_.id).back(); });
+  insist([&] { round = store_.rounds(campaign_.id).back(); }, Access::reads);
   const std::string text = concat("next round, ", round.n_cases, " cases: ", round.reason);
   note_event("round", text);
   display_.note(text);
@@ -179,7 +183,7 @@ bool Manager::take_shown_fields() {
   if (plan_->stopped() || chose_fields_ || !wanted) return false;
   chose_fields_ = true;
   FieldsChoice choice;
-  insist([&] { choice = choose_fields(store_, campaign_, cases_shown_first()); });
+  insist([&] { choice = choose_fields(store_, campaign_, cases_shown_first()); }, Access::reads);
   const auto say = [&](const std::string& text) {
     note_event("fields", text);
     display_.note(text);
@@ -204,6 +208,7 @@ Manager::~Manager() {
 
 bool Manager::turn() {
   busy_ = false;
+  beat();
   while (auto received = link_.receive()) {
     busy_ = true;
     const int worker = received->from - 1;
@@ -226,7 +231,6 @@ bool Manager::turn() {
   const bool is_old = !uncommitted_.empty() && since_first_uncommitted_.seconds() > kCommitSeconds;
   if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty() || !events_.empty())
     commit();
-  beat();
   const bool over = plan_->is_finished() || interrupted_ || !trouble_.empty();
   if (over && !draining_ && (plan_->stopped() || commit()) && !take_requeued() &&
       !take_next_round() && !take_shown_fields())
@@ -312,7 +316,7 @@ void Manager::handle_result(int worker, JobEvents::Completed completed) {
 
 std::optional<JobEvents::Failure> Manager::refuse_fields(const RunRecord& run) {
   std::optional<faultsim::CaseResult> stored;
-  insist([&] { stored = store_.stored_result(run.case_id); });
+  insist([&] { stored = store_.stored_result(run.case_id); }, Access::reads);
   FAULTSIM_DEMAND(stored.has_value(), run.case_id);
   const std::string difference = first_difference(*stored, *run.result);
   if (difference.empty()) return std::nullopt;
@@ -373,6 +377,8 @@ void Manager::add_run(RunRecord run) {
 }
 
 bool Manager::commit() {
+  const bool is_empty = events_.empty() && operators_.empty() && uncommitted_.empty();
+  if (is_empty) return true;
   return try_store([this] {
     for (; !events_.empty(); events_.pop_front())
       store_.record_event(campaign_.id, events_.front().first, events_.front().second);
@@ -419,10 +425,10 @@ void Manager::send_work(int worker, const Slice& slice) {
   std::set<std::int64_t>& sent = scenes_sent_[worker];
   for (const std::int64_t id : slice.cases) {
     CaseInput input;
-    insist([&] { input = store_.case_input(campaign_.id, id); });
+    insist([&] { input = store_.case_input(campaign_.id, id); }, Access::reads);
     if (sent.insert(input.scene).second) {
       auto& [scene, document] = work.scenes.emplace_back(input.scene, BaseScene());
-      insist([&] { document = store_.base_scene(scene); });
+      insist([&] { document = store_.base_scene(scene); }, Access::reads);
     }
     positions_[id] = input.position;
     work.cases.push_back(std::move(input));
@@ -444,10 +450,11 @@ void Manager::beat() {
   if (since_beat_.seconds() < kBeatSeconds) return;
   since_beat_ = {};
   bool is_cancelled = false;
-  const bool is_told = commit() && try_store([&] {
-                         store_.heartbeat(progress_json());
-                         is_cancelled = store_.is_cancelled(campaign_.id);
-                       });
+  // Before anything else is written: by now another manager may have taken the store.
+  const bool is_told = try_store([&] {
+    store_.heartbeat(progress_json());
+    is_cancelled = store_.is_cancelled(campaign_.id);
+  });
   if (is_told && is_cancelled && !cancelled_) {
     cancelled_ = true;
     display_.note(concat(campaign_.name, " was cancelled: no more cases are handed out"));

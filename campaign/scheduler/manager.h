@@ -85,9 +85,12 @@ class Manager {
     return campaign_.keep_fields == KeepFields::shown && fields_only_.contains(case_id);
   }
   void begin_drain();
-  /// False where another process has locked the store: then nothing was written.
-  bool try_store(const std::function<void()>& work);
-  void insist(const std::function<void()>& work);  ///< the same until the store is free.
+  enum class Access { reads, writes };
+  /// False where another process has locked the store: then nothing was written. Only what writes
+  /// tells that it is free again.
+  bool try_store(const std::function<void()>& work, Access access = Access::writes);
+  /// The same until the store is free.
+  void insist(const std::function<void()>& work, Access access = Access::writes);
   void note_lock();
   void note_event(const std::string& kind, const std::string& text);  ///< for the next commit.
   void beat();

@@ -98,16 +98,16 @@ ExitCode manage(Messenger& messenger, const RunOptions& options, bool& in_order)
   }
   in_order = manager.workers_are_drained();
   store.wait_for_locks(kLastPatience);
-  const CampaignInfo info = store.campaign(options.campaign);
-  display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
   if (!manager.trouble().empty())
     std::fprintf(stderr, "faultsweep: %s\n", manager.trouble().c_str());
-  const std::string end =
-      concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
-             " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before), " of ",
-             hundredths(since_start.seconds()), " s");
   try {
-    store.record_event(info.id, "stopped", end);
+    const CampaignInfo info = store.campaign(options.campaign);
+    display.finish({info.n_cases, info.n_done, info.n_failed, -1, ""});
+    store.record_event(
+        info.id, "stopped",
+        concat(info.n_done, " done, ", info.n_failed, " failed, ", info.n_waiting,
+               " waiting; the manager was busy for ", hundredths(cpu_seconds() - cpu_before),
+               " of ", hundredths(since_start.seconds()), " s"));
   } catch (const StoreBusy& busy) {  // all results are there
     display.note(busy.what());
   }

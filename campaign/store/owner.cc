@@ -38,10 +38,14 @@ bool is_alive(const std::string& host, std::int64_t pid, std::int64_t started, d
 
 }  // namespace
 
+/// As it was when first asked: a host that is renamed meanwhile is the same.
 std::string host_name() {
-  char name[256] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
+  static const std::string known = [] {
+    char name[256] = {};
+    gethostname(name, sizeof name - 1);
+    return std::string(name);
+  }();
+  return known;
 }
 
 std::optional<OwnerInfo> Store::dead_owner() const {

@@ -76,7 +76,8 @@ double largest_change(const FlowField& field, int reference, const std::vector<i
 /// Of what differs by `off` where our cells have `size`; more than kMany times it is no number.
 std::string times_text(double off, double size) {
   constexpr double kMany = 1000;
-  return off > kMany * size ? formatted("more than %.0f", kMany) : formatted("%.3g", off / size);
+  return off > kMany * size ? formatted("more than %.0f", kMany)
+                            : formatted("up to %.3g", off / size);
 }
 
 /// What is said of a compartment whose integrals are not those of one field.
@@ -91,7 +92,7 @@ Problem integral_misfit(const FlowMapping& mapping, std::size_t region, const st
   return {
       "", 0,
       formatted("the integrals of its change over %s and over the flow cells that count with it "
-                "differ by up to %s times the former; it has %.3g m3, they %.3g m3",
+                "differ by %s times the former; it has %.3g m3, they %.3g m3",
                 name.c_str(), times_text(off, size).c_str(), volumes_of_ours(mapping)[region],
                 volume_of_theirs(mapping, region)),
       "check where the compartment lies and how thick its layers are; with \"integral\": "

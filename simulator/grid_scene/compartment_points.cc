@@ -172,9 +172,10 @@ void say_parts(const GridStructure& structure, const ModelLines& lines,
   }
   if (n_lost == 0) return;
   remarks.push_back({RemarkKind::warning,
-                     concat(n_lost, " of ", counted(n_all, "column", "columns"),
-                            " within the outline are in no compartment of the model: lines leave "
-                            "less than half a cell of the mesh beside them"),
+                     concat("no compartment of the model has ", n_lost, " of ",
+                            counted(n_all, "column", "columns"),
+                            " within the outline: lines leave less than half a cell of the mesh "
+                            "beside them"),
                      "--strike, /geometry/compartments"});
 }
 

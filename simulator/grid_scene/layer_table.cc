@@ -12,7 +12,7 @@ namespace faultsim::grid_scene {
 namespace {
 
 constexpr const char* kCure =
-    "name the columns name, top [m], density [kg/m3], youngs_modulus [GPa], poisson_ratio; one "
+    "give the columns name, top [m], density [kg/m3], youngs_modulus [GPa], poisson_ratio; one "
     "layer is called reservoir";
 constexpr const char* kReservoir = "reservoir";
 

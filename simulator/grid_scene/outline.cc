@@ -221,9 +221,9 @@ void say_outside(const ColumnMap& map, const std::vector<Polyline>& outlines, do
   }
   if (n_outside <= kFew * n_active) return;
   remarks.push_back({RemarkKind::warning,
-                     concat(n_outside, " of ", counted(n_active, "active column", "active columns"),
-                            " lie outside the outline: their pressures count with the "
-                            "compartment that is nearest"),
+                     concat("the outline leaves out ", n_outside, " of ",
+                            counted(n_active, "active column", "active columns"),
+                            ": their pressures count with the compartment that is nearest"),
                      "/geometry/dividers"});
 }
 

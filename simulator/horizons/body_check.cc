@@ -145,13 +145,18 @@ void check_numbers(const LayeredBody& body, std::vector<Problem>& problems) {
   check_box(body, check);
   for (std::size_t f = 0; f < body.faults.size(); ++f)
     check_fault(body, body.faults[f], concat("/faults/", f), check);
-  for (std::size_t c = 0; c < body.compartments.size(); ++c)
-    check.demand(body.compartments[c].region.size() == body.layers.size(),
-                 concat("/compartments/", c, "/region"),
-                 concat("\"", body.compartments[c].name, "\" has ",
-                        counted(body.compartments[c].region.size(), "region", "regions"), " for ",
-                        counted(body.layers.size(), "layer", "layers")),
+  for (std::size_t c = 0; c < body.compartments.size(); ++c) {
+    const Compartment& one = body.compartments[c];
+    const bool are_places =
+        one.inside.allFinite() &&
+        std::ranges::all_of(one.also_inside, [](const auto& at) { return at.allFinite(); });
+    check.demand(are_places, concat("/compartments/", c, "/inside"),
+                 "a point of a compartment is not finite", "give finite numbers");
+    check.demand(one.region.size() == body.layers.size(), concat("/compartments/", c, "/region"),
+                 concat("\"", one.name, "\" has ", counted(one.region.size(), "region", "regions"),
+                        " for ", counted(body.layers.size(), "layer", "layers")),
                  "give one per layer, -1 for none");
+  }
   if (problems.empty()) check_cells(body, problems);
 }
 

@@ -176,13 +176,16 @@ void LineJoiner::check_tip(int line, const Vector2d& end) {
   for (int q = 0; q < static_cast<int>(all_.lines.size()); ++q) {
     const bool ends_here = std::ranges::any_of(
         meetings_, [&](const Meeting& m) { return m.first == q && m.at == end; });
-    if (q == line || ends_here) continue;
+    // A divider may pass through the tip.
+    const bool has_tip = !all_.is_fault(q) && contains(all_.lines[q].points, end);
+    if (q == line || ends_here || has_tip) continue;
     if (nearest_on_line(all_.lines[q].points, end).distance > 0.5 * cell_) continue;
     refused_tips_.push_back(end);
     complain(line,
              concat("\"", all_.lines[line].name, "\" ends in the rock at ", map_place(end),
                     ", less than half a cell from \"", all_.lines[q].name, "\""),
-             concat("let it end at \"", all_.lines[q].name, "\", or keep a cell between"));
+             concat(all_.is_fault(q) ? "let it end at \"" : "let the tip be a point of \"",
+                    all_.lines[q].name, "\", or keep a cell between"));
   }
   const Vector2d from_side = (end - body_.low).cwiseMin(body_.high - end);
   if (from_side.minCoeff() < 0.5 * cell_)

@@ -32,9 +32,15 @@ double mean_by_rule(const FaultPressure& law, const OperatorNode& node,
 /// e of every block at a height, (10a). At an edge it is that within the block: the weights of
 /// pairs leave out already what of a node lies beside it.
 std::vector<double> own_excess_within(const Scene& scene, double z) {
+  constexpr double kInside = 2e-6;  // m, beyond what meshes take for one line
   std::vector<double> excess;
-  for (std::size_t r = 0; r < scene.pressure.size(); ++r)
-    excess.push_back(own_pressure_excess(scene, r, z, depths_of_region(scene, r).inner_side(-z)));
+  for (std::size_t r = 0; r < scene.pressure.size(); ++r) {
+    const DepthSide side = depths_of_region(scene, r).inner_side(-z);
+    const double down = side == DepthSide::below   ? kInside
+                        : side == DepthSide::above ? -kInside
+                                                   : 0;
+    excess.push_back(own_pressure_excess(scene, r, z - down, side));
+  }
   return excess;
 }
 

@@ -12,7 +12,7 @@
 namespace faultsim {
 
 /// Raised by hand when a change may alter results on surfaces, and no others.
-inline constexpr int kSurfaceMethod = 5;
+inline constexpr int kSurfaceMethod = 6;
 
 /// What becomes of the turning points of histories that lie within the steps of a stage.
 enum class TurningPoints {

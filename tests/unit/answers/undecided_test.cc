@@ -127,8 +127,9 @@ TEST_F(Undecided, QuantilesAreAsFarOffAsTheMeasuredErrorIs) {
   EXPECT_NEAR(found.metrics.at(0).values.at(0).low.value(), 0.4275 - 0.05, 1e-12);
   EXPECT_NEAR(found.metrics[0].values[0].high.value(), 0.5725 + 0.05, 1e-12);
   EXPECT_NEAR(found.metrics[0].values[0].estimate, 0.5, 1e-9);
-  EXPECT_THAT(render_text(to_answer(found), 200),
-              HasSubstr("further away by its largest measured error of 0.05."));
+  EXPECT_THAT(
+      render_text(to_answer(found), 200),
+      HasSubstr("further away by its largest error, measured or stated by the tier, of 0.05."));
 }
 
 TEST_F(Undecided, SharesOfAGridAreWhatWasRun) {

@@ -226,7 +226,7 @@ TEST(WholeCells, TakeATinyChangeBesideAQuietCompartment) {
   };
   of_change(1e3);
   EXPECT_THAT(([&] { of_change(5e6); }),
-              ThrowsMessage<InputError>(HasSubstr("by up to more than 1000 times the former")));
+              ThrowsMessage<InputError>(HasSubstr("differ by more than 1000 times the former")));
 }
 
 TEST(WholeCells, RefuseGridsThatDoNotBelongTogether) {

@@ -16,6 +16,7 @@
 #include "simulator/grid_scene/mesh_size.h"
 #include "simulator/grid_scene/outline.h"
 #include "simulator/grid_scene/trace_ends.h"
+#include "simulator/horizons/body_check.h"
 #include "simulator/horizons/cut_map.h"
 #include "tests/unit/grid_scene/made_scene.h"
 
@@ -367,8 +368,9 @@ TEST(ModelCompartments, SayHowManyColumnsAreInNone) {
   options.lines.strike = 101;
   const MadeScene coarse = scene_of(made(plan), {}, options);
   EXPECT_EQ(coarse.made.lines.faults.size(), 2u);
-  EXPECT_TRUE(says(coarse.made.remarks, concat(columns_in_none(coarse).size(),
-                                               " of 192 columns within the outline are")));
+  EXPECT_TRUE(says(coarse.made.remarks,
+                   concat("no compartment of the model has ", columns_in_none(coarse).size(),
+                          " of 192 columns within the outline")));
 }
 
 /// Beside a hole that the outline takes in there is no edge: the fault ends in the rock, and is not
@@ -450,6 +452,17 @@ TEST(LineCheck, BlamesAFaultThatOthersEndAt) {
   EXPECT_EQ(misfit->fault, 1);
 }
 
+/// Of that the scene is told, which is written all the same.
+TEST(LineCheck, BlamesNoFaultForCellsThatAreTooSmall) {
+  ModelLines lines = lines_in_a_box({{.name = "", .trace = {{0, -2000}, {0, 2000}}}});
+  lines.strike = 1;
+  std::vector<Problem> problems;
+  horizons::check_numbers(body_of_lines(lines), problems);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].pointer, "/cells");
+  EXPECT_FALSE(first_misfit(lines));
+}
+
 /// Two such places: no fault alone cures both.
 TEST(LineCheck, BlamesOneOfTwoFaultsThatDoNotFitOnRequest) {
   std::vector<ModelFault> faults = near_each_other(-1500);
@@ -509,7 +522,7 @@ TEST(Outline, HoldsTheColumnsOfLongNarrowCells) {
   for (std::size_t k = 0; k < outline.size(); ++k)
     area += cross_product(outline[k], outline[(k + 1) % outline.size()]) / 2;
   EXPECT_NEAR(area, 250 * 8000, 0.05 * 250 * 8000);
-  EXPECT_FALSE(says(all.made.remarks, "outside the outline"));
+  EXPECT_FALSE(says(all.made.remarks, "the outline leaves out"));
 }
 
 TEST(Outline, SaysHowManyColumnsItLeavesOut) {
@@ -520,7 +533,7 @@ TEST(Outline, SaysHowManyColumnsItLeavesOut) {
     if (j < 4) plan.inactive.insert(plan.inactive.end(), {{14, j, -1}, {15, j, -1}});
   }
   EXPECT_TRUE(
-      says(scene_of(made(plan)).made.remarks, "8 of 104 active columns lie outside the outline"));
+      says(scene_of(made(plan)).made.remarks, "the outline leaves out 8 of 104 active columns"));
 }
 
 TEST(GridPictures, SayWhatWasRecognised) {

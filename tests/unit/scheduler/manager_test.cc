@@ -194,6 +194,23 @@ TEST_F(ManagerTest, TakesCasesThatWerePutBackMeanwhile) {
   EXPECT_THAT(events(), ::testing::HasSubstr("requeued: 1 case waits again"));
 }
 
+/// Such a case, of which only the fields were missing, is then run as a whole: its fields alone
+/// would leave it waiting for ever.
+TEST_F(ManagerTest, TakesCasesThatWerePutBackWhileOnlyTheirFieldsWereMissing) {
+  FakeRunner::outcome = faultsim::Outcome::unstable;
+  submit(12, {});
+  EXPECT_EQ(run(), ExitCode::incomplete);
+  submit(30, {}, {}, "larger", KeepFields::stages);
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  EXPECT_FALSE(stage.play(manager, 3));
+  EXPECT_EQ(Store::open_writer(folder_).retry(store.campaign("sweep").id, true, {}), 12);
+  constexpr int kEnough = 10000;
+  EXPECT_TRUE(stage.play(manager, kEnough));
+  EXPECT_EQ(store.campaign("larger").n_waiting, 0);
+}
+
 /// Forgets manager and workers after each number of turns, as kill -9 of all of them would.
 TEST_F(ManagerTest, KilledAtAnyTurnTheNextManagerCompletesTheCampaign) {
   submit(25, {7});
