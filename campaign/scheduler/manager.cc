@@ -427,8 +427,8 @@ void Manager::send_work(int worker, const Slice& slice) {
     CaseInput input;
     insist([&] { input = store_.case_input(campaign_.id, id); }, Access::reads);
     if (sent.insert(input.scene).second) {
-      auto& [scene, document] = work.scenes.emplace_back(input.scene, BaseScene());
-      insist([&] { document = store_.base_scene(scene); }, Access::reads);
+      auto& base = work.scenes.emplace_back(input.scene, BaseScene());
+      insist([&] { base.second = store_.base_scene(base.first); }, Access::reads);
     }
     positions_[id] = input.position;
     work.cases.push_back(std::move(input));

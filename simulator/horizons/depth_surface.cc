@@ -142,7 +142,7 @@ void PointSurface::sort_into_bins() {
   }
   n_bins_ = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(triangles_.size()))));
   bin_size_ = ((high - low_) / n_bins_).cwiseMax(1e-30);
-  bins_.resize(static_cast<std::size_t>(n_bins_ * n_bins_));
+  bins_.resize(static_cast<std::size_t>(n_bins_) * static_cast<std::size_t>(n_bins_));
   const auto bin = [&](double x, int axis) {
     return std::clamp(static_cast<int>((x - low_[axis]) / bin_size_[axis]), 0, n_bins_ - 1);
   };

@@ -20,7 +20,7 @@ MapBarriers::MapBarriers(std::vector<Stretch> stretches) : stretches_(std::move(
   constexpr int kMostBins = 128;
   n_bins_ = std::min(kMostBins, static_cast<int>(stretches_.size()));
   bin_size_ = ((high_ - low_) / n_bins_).cwiseMax(1e-30);
-  bins_.resize(static_cast<std::size_t>(n_bins_ * n_bins_));
+  bins_.resize(static_cast<std::size_t>(n_bins_) * static_cast<std::size_t>(n_bins_));
   for (std::size_t k = 0; k < stretches_.size(); ++k) {
     const auto& [a, b] = stretches_[k];
     const Vector2d from = a.cwiseMin(b), to = a.cwiseMax(b);

@@ -142,7 +142,7 @@ void MapMesher::add_sides() {
   const std::array<Vector2d, 4> corners = {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
   const std::vector<Vector2d> before = points_;
   for (std::size_t s = 0; s < 4; ++s) {
-    const Vector2d from = corners[s], to = corners[(s + 1) % 4];
+    const Vector2d &from = corners[s], &to = corners[(s + 1) % 4];
     const int across = s % 2 == 0 ? 1 : 0;
     std::vector<Vector2d> stops = {from, to};
     for (const Vector2d& p : before)
