@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <tuple>
 
 #include "campaign/answers/curves.h"
@@ -57,19 +58,29 @@ struct Report {
   const CampaignInfo& campaign;
   const ReportRequest& request;
   faultsim::HtmlPage page = faultsim::HtmlPage(campaign.name);
+  std::optional<Probability> sliding = {};  ///< by sliding_of.
 };
 
+/// How often each fault slides in each stage, counted once for the page.
+const Probability& sliding_of(Report& report) {
+  if (!report.sliding) {
+    report.sliding =
+        find_probability(report.store, report.campaign, {.confidence = report.request.confidence});
+  }
+  return *report.sliding;
+}
+
 /// "Most often it is F2 in gas_storage: 12 of 60 cases, 20 %."; "" where none slides in any stage.
-std::string most_often(const Report& report) {
+std::string most_often(Report& report) {
   const std::string in_stage = ".slides in ";
-  Probability all =
-      find_probability(report.store, report.campaign, {.confidence = report.request.confidence});
-  std::erase_if(all.shares, [&](const Share& share) {
+  const Probability& all = sliding_of(report);
+  std::vector<Share> shares = all.shares;
+  std::erase_if(shares, [&](const Share& share) {
     return share.counts.n_holds == 0 || share.label.find(in_stage) == std::string::npos;
   });
-  if (all.shares.empty()) return "";
+  if (shares.empty()) return "";
   const Share& most = *std::ranges::max_element(
-      all.shares, {}, [](const Share& share) { return share.counts.n_holds; });
+      shares, {}, [](const Share& share) { return share.counts.n_holds; });
   const std::size_t end_of_name = most.label.find(in_stage);
   return concat(" Most often it is ", most.label.substr(0, end_of_name), " in ",
                 most.label.substr(end_of_name + in_stage.size()), ": ",
@@ -187,10 +198,7 @@ void add_cases(Report& report, const std::vector<RankedCase>& rows) {
 void add_answers(Report& report) {
   HtmlPage& page = report.page;
   page.section("how-often", "How often each fault slides");
-  page.unless_refused([&] {
-    page.add(render_html(to_answer(find_probability(report.store, report.campaign,
-                                                    {.confidence = report.request.confidence}))));
-  });
+  page.unless_refused([&] { page.add(render_html(to_answer(sliding_of(report)))); });
   page.section("how-soon", "How soon each fault begins to slide");
   page.unless_refused([&] {
     page.add(render_html(to_answer(

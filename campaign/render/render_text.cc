@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <functional>
 #include <numeric>
-#include <ranges>
 #include <string_view>
 #include <utility>
 
@@ -60,8 +59,9 @@ std::size_t widest_of(const std::vector<std::string>& texts) {
 /// The widest word of a text that is not too long to be kept in one piece.
 std::size_t longest_word(std::string_view text) {
   std::size_t longest = 0;
-  for (const auto word : std::views::split(text, ' ')) {
-    const std::size_t width = display_width(std::string(word.begin(), word.end()));
+  for (std::size_t from = 0, end = 0; from <= text.size(); from = end + 1) {
+    end = std::min(text.find(' ', from), text.size());
+    const std::size_t width = display_width(std::string(text.substr(from, end - from)));
     if (width <= kLongestWord) longest = std::max(longest, width);
   }
   return longest;

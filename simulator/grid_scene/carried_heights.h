@@ -31,7 +31,8 @@ struct CarriedHeights {
 /// Heights of all sides of one pillar where they are moved to. Along the fault each goes on by its
 /// own slope, across it all by the mean of their slopes: what lies between the sides, the throw, is
 /// kept where the pillar is put on the straightened fault. Exact where places go on linearly with
-/// the height, however steep surfaces are; none may be found where places jump.
+/// the height, however steeply a surface falls along the way of the pillar. None may be found where
+/// it rises faster than the pillar does, or where places jump.
 /// @param place  where one of them is at a height; none: it is not moved.
 CarriedHeights carried(
     const std::vector<Moved>& sides,
