@@ -59,7 +59,7 @@ Manager::Manager(Store& store, Link& link, ProgressDisplay& display, const Optio
   take_work();
   scenes_sent_.resize(n_workers());
   hosts_.resize(n_workers());
-  cores_.resize(n_workers(), 1);
+  cores_.resize(n_workers());
   since_build_.resize(n_workers());
   building_.resize(n_workers());
   if (campaign_.cancelled) plan_->stop();
@@ -227,7 +227,7 @@ bool Manager::turn() {
       ++n_drained_;
     }
   }
-  if (uncommitted_.size() < kMostUncommitted) hand_out();
+  if (knows_all_hosts() && uncommitted_.size() < kMostUncommitted) hand_out();
   const bool is_old = !uncommitted_.empty() && since_first_uncommitted_.seconds() > kCommitSeconds;
   if (is_old || uncommitted_.size() >= kCommitRuns || !operators_.empty() || !events_.empty())
     commit();
@@ -241,6 +241,7 @@ bool Manager::turn() {
 }
 
 void Manager::greet(int worker, const message::Hello& hello) {
+  ++n_greeted_;
   hosts_[worker] = hello.host;
   cores_[worker] = hello.cores;
   const int fresh = static_cast<int>(host_numbers_.size()) + 1;  // 0 = not known yet

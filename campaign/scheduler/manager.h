@@ -62,6 +62,8 @@ class Manager {
 
  private:
   int n_workers() const { return link_.size() - 1; }
+  /// Where all workers are, and with how many cores: who builds with which threads depends on it.
+  bool knows_all_hosts() const { return n_greeted_ == n_workers(); }
   void tell(int worker, const Message& message) { link_.send(worker + 1, message); }  ///< from 0.
   void greet(int worker, const message::Hello& hello);
   void handle(int worker, JobEvents events);
@@ -120,7 +122,7 @@ class Manager {
       since_drain_, since_lock_note_;
   long n_incomplete_ = 0, n_finished_now_ = 0;
   long n_extras_left_ = 0;  ///< cases that lack no more than the fields of those shown first.
-  int n_drained_ = 0;
+  int n_greeted_ = 0, n_drained_ = 0;
   bool chose_fields_ = false;  ///< of the cases shown first: nothing comes after them.
   bool busy_ = false, interrupted_ = false, draining_ = false, aborted_ = false, cancelled_ = false;
   bool locked_ = false, lock_is_noted_ = false;  ///< the store, by another process.

@@ -21,6 +21,20 @@ TEST_F(ManagerTest, RunsEveryCaseOnceAndASecondRunDoesNothing) {
   }
 }
 
+/// A worker that is handed work before it has said how many cores it has would build with one.
+TEST_F(ManagerTest, HandsOutNothingBeforeAllWorkersHaveSaidWhereTheyAre) {
+  submit(1, {});
+  Store store = Store::open_owner(folder_);
+  Stage stage(2);
+  Manager manager(store, stage, silent_, {});
+  stage.greet(1);
+  EXPECT_FALSE(stage.take_turns(manager, 50));
+  EXPECT_EQ(FakeRunner::n_runs, 0);
+  EXPECT_TRUE(stage.play(manager));
+  EXPECT_EQ(FakeRunner::n_runs, 1);
+  EXPECT_EQ(FakeRunner::threads, std::vector{4});
+}
+
 /// `status` reads it in the store, which hears of it once a second.
 TEST_F(ManagerTest, SaysWhatIsBeingBuilt) {
   submit(3, {});

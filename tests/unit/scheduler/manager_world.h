@@ -22,7 +22,10 @@ using faultsim::ExitCode;
 /// Decides each job by its title, at once; one job per call of work().
 class FakeRunner final : public JobRunner {
  public:
-  void begin_family(const FamilyTask&) override { has_operator_ = false; }
+  void begin_family(const FamilyTask& task) override {
+    has_operator_ = false;
+    threads.push_back(task.threads);
+  }
   void end_family() override { has_operator_ = false; }
   void hold(std::int64_t base, const std::string& scene) override { bases_[base] = scene; }
   void add(Job job) override { jobs_.push_back(std::move(job)); }
@@ -72,6 +75,7 @@ class FakeRunner final : public JobRunner {
   }
   static inline bool builds_until_it_may_end = false;
   static inline int n_runs = 0;
+  static inline std::vector<int> threads;  ///< of each family that was begun.
   static inline double strength = 0.7;
   static inline bool damage = false;  ///< of results, on their way.
   static inline faultsim::Outcome outcome = faultsim::Outcome::converged;
@@ -126,8 +130,18 @@ class Stage final : public Link {
     to_manager_.pop_front();
     return Received{from, decode(bytes)};
   }
-  /// Until the manager is done, at most n_turns; true if it is.
+  /// The worker (from 0) says where it is, on a host of four cores.
+  void greet(std::size_t worker) {
+    ends_[worker]->send(0, message::Hello{"host", 4});
+    greeted_.insert(worker);
+  }
+  /// Until the manager is done, at most n_turns; true if it is. Who has not greeted does so first.
   bool play(Manager& manager, int n_turns = 1000000) {
+    for (std::size_t worker = 0; worker < workers_.size(); ++worker)
+      if (!greeted_.contains(worker)) greet(worker);
+    return take_turns(manager, n_turns);
+  }
+  bool take_turns(Manager& manager, int n_turns) {
     for (int turn = 0; turn < n_turns; ++turn) {
       if (!manager.turn()) return true;
       for (const auto& worker : workers_) worker->turn(0);
@@ -140,6 +154,7 @@ class Stage final : public Link {
   std::vector<std::unique_ptr<FakeRunner>> runners_;
   std::vector<std::unique_ptr<Worker>> workers_;
   std::deque<std::pair<int, std::string>> to_manager_;
+  std::set<std::size_t> greeted_;
 };
 
 class ManagerTest : public ::testing::Test {
@@ -148,6 +163,7 @@ class ManagerTest : public ::testing::Test {
     std::string name = ::testing::TempDir() + "manager_XXXXXX";
     folder_ = mkdtemp(name.data());
     FakeRunner::n_runs = 0;
+    FakeRunner::threads.clear();
     FakeRunner::builds_until_it_may_end = false;
     FakeRunner::outcome = faultsim::Outcome::converged;
     FakeRunner::strength = 0.7;
