@@ -345,7 +345,7 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
       concat(fields_only_.count(run.case_id) > 0 ? "fields of case " : "case ", position, " ",
              to_string(run.status), ": ", run.reason, run.final ? "" : "; it will be tried again");
   note_event("case failed", text);
-  display_.note(text);
+  show_failure(text);
   if (run.final && is_extra(run.case_id)) {
     --n_extras_left_;
   } else if (run.final) {
@@ -356,6 +356,15 @@ void Manager::handle_failure(int worker, const JobEvents::Failure& failure) {
     }
   }
   add_run(std::move(run));
+}
+
+/// What a mistake does to all cases alike is not told ten thousand times.
+void Manager::show_failure(const std::string& text) {
+  ++n_failures_shown_;
+  if (n_failures_shown_ <= kFailuresShown) display_.note(text);
+  if (n_failures_shown_ == kFailuresShown + 1)
+    display_.note(concat("further failures are not shown here: `faultsweep status ", campaign_.name,
+                         "` has them"));
 }
 
 void Manager::fail_hopeless() {

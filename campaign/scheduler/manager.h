@@ -56,6 +56,7 @@ class Manager {
 
   static constexpr double kCommitSeconds = 0.05;   ///< the oldest result waits no longer
   static constexpr std::size_t kCommitRuns = 512;  ///< nor are more together in one transaction
+  static constexpr int kFailuresShown = 10;        ///< each in a line; the store has all.
   static constexpr double kLockSeconds = 0.1;      ///< how long a turn waits for a locked store
   /// Results in memory, while the store is locked, from which on no more cases are handed out.
   static constexpr std::size_t kMostUncommitted = 5000;
@@ -73,6 +74,7 @@ class Manager {
   /// (another BLAS kernel, hence other last bits) the world's doing. Nothing = they are kept.
   std::optional<JobEvents::Failure> refuse_fields(const RunRecord& run);
   void handle_failure(int worker, const JobEvents::Failure& failure);
+  void show_failure(const std::string& text);
   void hand_out();
   void send_work(int worker, const Slice& slice);
   void add_run(RunRecord run);
@@ -121,6 +123,7 @@ class Manager {
   faultsim::Stopwatch since_first_uncommitted_, since_beat_, since_look_, since_start_,
       since_drain_, since_lock_note_;
   long n_incomplete_ = 0, n_finished_now_ = 0;
+  long n_failures_shown_ = 0;
   long n_extras_left_ = 0;  ///< cases that lack no more than the fields of those shown first.
   int n_greeted_ = 0, n_drained_ = 0;
   bool chose_fields_ = false;  ///< of the cases shown first: nothing comes after them.

@@ -135,7 +135,8 @@ class Worker {
         request.value("source", "case"),
         concat("the scene has the identity ", identity.substr(0, 12), ", its case ",
                wanted.substr(0, 12)),
-        "a file that it names has changed since it was submitted; submit the campaign again");
+        "a file that it names, or the program, has changed since it was submitted; submit the "
+        "campaign again");
   }
 
   void prepare(const json& run) {

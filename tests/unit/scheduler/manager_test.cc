@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <numeric>
+#include <sstream>
+
 #include "simulator/common/stopwatch.h"
 #include "tests/unit/scheduler/manager_world.h"
 
@@ -66,6 +69,30 @@ TEST_F(ManagerTest, FailuresAreRowsAndTheCampaignIsIncomplete) {
   EXPECT_EQ(info.n_done, 28);
   EXPECT_EQ(info.n_failed, 2);
   EXPECT_EQ(store.stored_case(info.id, "4").runs.at(0).reason, "killed");
+}
+
+/// All cases of a campaign may fail alike.
+TEST_F(ManagerTest, ShowsTheFirstFailuresAndWhereTheOthersAre) {
+  std::vector<int> all(25);
+  std::iota(all.begin(), all.end(), 0);
+  submit(25, all);
+  Store store = Store::open_owner(folder_);
+  Stage stage(1);
+  ProgressDisplay lines{ProgressDisplay::Style::lines};
+  ::testing::internal::CaptureStderr();
+  {
+    Manager manager(store, stage, lines, {});
+    EXPECT_TRUE(stage.play(manager));
+  }
+  std::istringstream said(::testing::internal::GetCapturedStderr());
+  int n_failures = 0, n_hints = 0;
+  for (std::string line; std::getline(said, line);) {
+    n_failures += line.ends_with("crashed: killed");
+    n_hints += line == "further failures are not shown here: `faultsweep status sweep` has them";
+  }
+  EXPECT_EQ(n_failures, 10);
+  EXPECT_EQ(n_hints, 1);
+  EXPECT_EQ(store.campaign("").n_failed, 25);
 }
 
 TEST_F(ManagerTest, ADamagedResultIsARowWithItsReason) {
