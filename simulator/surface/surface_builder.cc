@@ -63,6 +63,7 @@ class Builder {
   std::shared_ptr<const FaultOperator> ask(const Eigen::VectorXd& x, const std::string& what);
   void require_memory(double bytes, const char* what) const;
   OperatorBasis compressed(double tolerance) const;
+  void tell(const char* what, const Check& check) const;
   void make_checks(int n_axes);
   std::span<Check> deciding_checks();
   std::span<Check> other_checks() { return std::span(checks_).last(checks_.size() / 2); }
@@ -123,6 +124,7 @@ void Builder::require_memory(double bytes, const char* what) const {
 
 /// What is left out of H in all nodes together is below a twentieth of `tolerance`.
 OperatorBasis Builder::compressed(double tolerance) const {
+  context_.progress(0, "compressing a surface");
   const Eigen::MatrixXd gram = nodes_.stiffness_gram(context_.stop);
   const Eigen::Index m = gram.rows();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram);  // ascending
@@ -139,6 +141,12 @@ void Builder::make_checks(int n_axes) {
   if (!checks_.empty()) return;
   for (const Eigen::VectorXd& x : check_points(n_axes, n_surface_checks(request_)))
     checks_.push_back({x, ask(x, concat("check point ", checks_.size() + 1))});
+}
+
+void Builder::tell(const char* what, const Check& check) const {
+  const auto k = &check - checks_.data();
+  context_.progress(static_cast<double>(k) / static_cast<double>(checks_.size()),
+                    concat(what, " at check point ", k + 1, " of a surface"));
 }
 
 /// Those whose cases say when the grid is fine enough; the others then say how fine it is.
@@ -193,6 +201,7 @@ CaseSurface Builder::measured(const std::shared_ptr<const OperatorBasis>& basis,
                     .tolerance = request_.tolerance};
   for (Check& check : checks_) {
     context_.stop.throw_if_requested("measuring a surface of operators");
+    tell("errors", check);
     look_at_exact(check);
     measure(*interpolated(basis, grid, check), check, worst);
   }
@@ -217,6 +226,7 @@ CaseErrors Builder::errors_of_cases(const std::shared_ptr<const OperatorBasis>& 
                                     const SparseGrid& grid, std::span<Check> checks) {
   CaseErrors worst;
   for (Check& check : checks) {
+    tell("cases", check);
     run_exact(check);
     const auto op = interpolated(basis, grid, check);
     for (std::size_t k = 0; k < check.cases.size(); ++k)

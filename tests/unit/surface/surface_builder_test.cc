@@ -97,6 +97,29 @@ TEST(SurfaceBuilder, RefusesWhereAProbingCaseEndsEarlyOnInterpolatedOperators) {
   }
 }
 
+struct Listener final : Monitor {
+  std::vector<std::string> said;
+  void progress(double fraction, const std::string& what) override {
+    EXPECT_TRUE(fraction >= 0 && fraction <= 1) << fraction;
+    said.push_back(what);
+  }
+  void note(const std::string&) override {}
+};
+
+/// At full size each of these takes minutes.
+TEST(SurfaceBuilder, TellsWhatItIsDoing) {
+  Listener listener;
+  const ProbingCases cases = {1, 0.003, [](int, const Eigen::VectorXd&, const auto&) {
+                                CaseResult result;
+                                result.outcome = Outcome::converged;
+                                return result;
+                              }};
+  build_surface(over_one_parameter(1e-3, 4), "name", with_soft_jump, cases, listener);
+  EXPECT_THAT(listener.said,
+              testing::IsSupersetOf({"compressing a surface", "cases at check point 1 of a surface",
+                                     "errors at check point 6 of a surface"}));
+}
+
 /// Which part of an operator bends with the parameter; the others are constant.
 enum class Bends { stiffness, first_load, last_load, per_load, per_jump };
 
