@@ -30,6 +30,13 @@ bool places_a_field(const std::string& target) {
 
 }  // namespace
 
+bool FamilyFinder::is_on_surface(const Parameter& parameter) const {
+  const json* over = faultsim::value_at(group_.scene, "/numerics/surface/over");
+  return over != nullptr && std::ranges::any_of(*over, [&](const json& one) {
+           return one.is_object() && contains(parameter.targets, one.value("parameter", ""));
+         });
+}
+
 /// A parameter is irrelevant only if every target is a number known to leave the operator alone
 /// *and* is listed as such; what is not listed (words, whole objects) may change anything.
 void FamilyFinder::find_relevant() {
@@ -43,24 +50,24 @@ void FamilyFinder::find_relevant() {
     makes_families_.push_back(std::ranges::any_of(targets, may_matter));
     relevant_.push_back(makes_families_.back() || std::ranges::any_of(targets, places_a_field));
   }
+  // An offset is taken in intervals, some of which have no surface: whatever moves an exact
+  // operator makes families there.
+  bool takes_intervals = false;
+  for (std::size_t p = 0; p < group_.parameters.size(); ++p)
+    takes_intervals |= makes_families_[p] && is_on_surface(group_.parameters[p]);
+  for (std::size_t p = 0; takes_intervals && p < group_.parameters.size(); ++p)
+    if (is_on_surface(group_.parameters[p])) relevant_[p] = true;
   for (const Derived& one : spec_.derived) {
     relevant_.push_back(may_matter(one.scene_pointer) || places_a_field(one.scene_pointer));
   }
 }
 
 std::vector<std::string> FamilyFinder::drawn() const {
-  // An offset is taken in intervals: a family for each.
-  const json* over = faultsim::value_at(group_.scene, "/numerics/surface/over");
-  const auto is_over = [&](const std::string& target) {
-    return over != nullptr && std::ranges::any_of(*over, [&](const json& one) {
-             return one.is_object() && one.value("parameter", "") == target;
-           });
-  };
+  // An offset that is taken in intervals makes a family for each, not for each value.
   std::vector<std::string> names;
   for (std::size_t p = 0; p < group_.parameters.size(); ++p) {
     const Parameter& one = group_.parameters[p];
-    if (makes_families_[p] && one.range && std::ranges::none_of(one.targets, is_over))
-      names.push_back(one.name);
+    if (makes_families_[p] && one.range && !is_on_surface(one)) names.push_back(one.name);
   }
   return names;
 }

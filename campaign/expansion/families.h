@@ -56,6 +56,7 @@ class FamilyFinder {
  private:
   using Key = std::vector<double>;
 
+  bool is_on_surface(const Parameter& parameter) const;
   void find_relevant();
   Key key_of(const Row& row, const std::vector<double>& derived) const;
   void add_estimated(const std::string& fingerprint);

@@ -84,6 +84,17 @@ double WorkPlan::total_seconds(const Family& entry) const {
   return seconds;
 }
 
+/// For which those who are on the family have cases of it. One that was never timed is taken for a
+/// hundredth of its operator.
+double WorkPlan::busy_seconds(int index) const {
+  const Family& entry = family(index);
+  const double one = case_seconds(entry) > 0 ? case_seconds(entry) : build_seconds(entry) / 100;
+  double n_cases = static_cast<double>(entry.waiting.size());
+  for (const Worker& worker : workers_)
+    if (worker.family == index) n_cases += static_cast<double>(worker.n_cases);
+  return one * n_cases / std::max(entry.n_workers, 1);
+}
+
 bool WorkPlan::has_operator(int worker, int index) const {
   if (!family(index).work.creeps) return family(index).state == State::ready;
   return at(worker).holds == index && at(worker).has_operators;
@@ -347,12 +358,13 @@ bool WorkPlan::is_building(int worker) const {
 }
 
 int WorkPlan::build_threads(int worker, int cores) const {
+  const double half = build_seconds_of(worker) / 2;
   int n_building = 1, n_idle = 0, n_running = 0, idle = -1;
   for (int other = 0; other < static_cast<int>(workers_.size()); ++other) {
     if (other == worker || at(other).host != at(worker).host) continue;
     if (is_building(other)) {
       ++n_building;
-    } else if (at(other).n_cases > 0) {
+    } else if (at(other).n_cases > 0 && busy_seconds(family_of(other)) >= half) {
       ++n_running;
     } else {
       ++n_idle;

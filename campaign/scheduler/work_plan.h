@@ -59,8 +59,9 @@ class WorkPlan {
 
   /// Says where the worker runs: a number per host. Until then all are taken to share one.
   void place(int worker, int host) { at(worker).host = host; }
-  /// Threads with which the worker may build its operator: the cores that cases on its host leave,
-  /// shared by those that build there or have a family to build. At least 1.
+  /// Threads with which the worker may build its operator: the cores that cases on its host leave
+  /// for at least half of the build, shared by those that build there or have a family to build. At
+  /// least 1.
   int build_threads(int worker, int cores) const;
   /// What the worker (from 0) is to do in addition to what it has; nothing = have it wait.
   std::optional<Slice> next(int worker);
@@ -149,6 +150,7 @@ class WorkPlan {
   double build_seconds(const Family& entry) const;
   double memory_bytes(const Family& entry) const;
   double total_seconds(const Family& entry) const;
+  double busy_seconds(int index) const;
   bool has_operator(int worker, int index) const;
   int choose_family(int worker) const;
   int family_to_join(int worker) const;

@@ -361,6 +361,8 @@ std::vector<ParameterInfo> parameters(const JsonDocument& document) {
   }
   collector.walk(&completed, schema_views(scene_schema().root(), completed), "", false);
   std::vector<ParameterInfo> rows = std::move(collector).rows();
+  const json* is_exact = value_at(completed, "/numerics/surface/exact");
+  if (is_exact != nullptr && *is_exact == true) return rows;
   for (std::size_t i = 0; i < size_at(completed, "/numerics/surface/over"); ++i) {
     const std::string given =
         text_at(completed, element("/numerics/surface/over", i) + "/parameter");

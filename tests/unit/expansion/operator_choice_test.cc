@@ -14,13 +14,21 @@ using ::testing::HasSubstr;
 constexpr const char* kStiffAndWeak = R"("salt_stiffness": {"from": "20 GPa", "to": "60 GPa"},
     "friction_angle": {"from": "15 deg", "to": "35 deg"})";
 
-Expansion expand_sample(long n, const std::string& parameters, const std::string& operators) {
+Expansion expand_with(const std::string& design, const std::string& operators) {
   const std::string text =
       R"({"format": 1, "name": "test", "base": "docs/examples/scenes/rotliegend.json",
     "set": {"/tier": "screening", "/numerics/plane_strain": "on"}, )" +
-      operators + R"("design": {"kind": "monte-carlo", "samples": )" + std::to_string(n) +
-      R"(, "parameters": {)" + parameters + "}}}";
+      operators + R"("design": )" + design + "}";
   return expand(parse_campaign(text, FAULTSIM_SOURCE_DIR "/spec.json"));
+}
+
+std::string sample(long n, const std::string& parameters) {
+  return R"({"kind": "monte-carlo", "samples": )" + std::to_string(n) + R"(, "parameters": {)" +
+         parameters + "}}";
+}
+
+Expansion expand_sample(long n, const std::string& parameters, const std::string& operators) {
+  return expand_with(sample(n, parameters), operators);
 }
 
 std::string policy(const std::string& name) {
@@ -95,6 +103,34 @@ TEST(OperatorChoice, KeepsIntervalsOfFewRowsExact) {
     const int n = family.plan->n_operators;
     EXPECT_GE(std::ssize(family.cases), n > 1 ? n : 1);
   }
+}
+
+/// Of `rank --certify`: each builds its own, and is planned for, with its memory, as such.
+TEST(OperatorChoice, GivesExactTwinsOfASurfaceFamiliesOfTheirOwn) {
+  const Expansion surface = expand_sample(30, kStiffAndWeak, policy("surface"));
+  nlohmann::ordered_json twins = surface.spec.document.value;
+  twins["base"] = surface.spec.groups[0].scene;
+  twins.erase("set");
+  twins["operators"] = {{"exact_rows", {4, 11, 29}}};
+  const Expansion exact = expand(parse_campaign(twins.dump(), FAULTSIM_SOURCE_DIR "/spec.json"));
+  ASSERT_EQ(exact.families.size(), 3u);
+  for (const Family& family : exact.families) EXPECT_EQ(family.plan->n_operators, 1);
+}
+
+/// Each offset of a nested design comes with many stiffnesses, also where it has no surface.
+TEST(OperatorChoice, GivesExactRowsOfOneOffsetFamiliesOfTheirOwn) {
+  const std::string outer = sample(8, R"("offset": {"from": "0 m", "to": "200 m"})"),
+                    inner = sample(12, R"("salt_stiffness": {"from": "20 GPa", "to": "60 GPa"})");
+  const Expansion all = expand_with(
+      R"({"kind": "nested", "designs": [)" + outer + ", " + inner + "]}", policy("automatic"));
+  long n_exact = 0;
+  for (const Family& family : all.families) {
+    if (family.plan->n_operators > 1) continue;
+    EXPECT_EQ(family.cases.size(), 1u);
+    ++n_exact;
+  }
+  EXPECT_GE(n_exact, 12);
+  EXPECT_LT(n_exact, 96);
 }
 
 TEST(OperatorChoice, SaysWhatASurfaceCannotBeOver) {

@@ -74,6 +74,22 @@ TEST(WorkPlan, BuildersShareTheCoresThatCasesLeave) {
   EXPECT_EQ(plan.build_threads(2, 7), 7);  // a host of its own
 }
 
+/// As of the exact twins of a few cases: each has an operator of its own, for which there is room
+/// once the one before is built.
+TEST(WorkPlan, AFewLastCasesTakeNoCoreFromABuild) {
+  WorkPlan plan({family(1, 1, 50), family(11, 1, 40), family(21, 9000, 60)},
+                {.n_workers = 2, .memory_bytes = 1.5e9});
+  EXPECT_EQ(plan.next(0)->family, 2);
+  plan.operator_ready(0, 60, false);
+  EXPECT_EQ(plan.next(1)->family, 0);
+  EXPECT_EQ(plan.build_threads(1, 2), 1) << "thousands of cases are left";
+  WorkPlan few({family(1, 1, 50), family(11, 1, 40)}, {.n_workers = 2, .memory_bytes = 1.5e9});
+  few.next(0);
+  few.operator_ready(0, 50, false);
+  EXPECT_EQ(few.next(1)->family, 1);
+  EXPECT_EQ(few.build_threads(1, 2), 2);
+}
+
 TEST(WorkPlan, TakesCachedFamiliesFirstThenTheLongest) {
   WorkPlan plan({family(100, 5, 1), family(200, 5, 50), family(300, 5, 9, true)}, {.n_workers = 3});
   EXPECT_EQ(plan.next(0)->family, 2);
