@@ -10,6 +10,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/common/units.h"
+#include "simulator/corner_point/structure_finder.h"
 #include "simulator/corner_point/structure_text.h"
 #include "simulator/files/atomic_file.h"
 #include "simulator/files/output_target.h"

@@ -221,6 +221,4 @@ FaultEdge ColumnMap::measured(int from, int to) const {
   return edge;
 }
 
-double FaultEdge::largest() const { return std::max(std::abs(least), std::abs(most)); }
-
 }  // namespace faultsim::corner_point

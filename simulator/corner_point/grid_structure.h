@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -55,7 +57,7 @@ struct FaultEdge {
   double least = 0, most = 0;  ///< of all these, m: layers whose offsets differ.
 
   /// The largest amount, m ≥ 0: what is compared with StructureOptions::least_offset.
-  double largest() const;
+  double largest() const { return std::max(std::abs(least), std::abs(most)); }
 };
 
 /// Of values along a fault: the middle one, least and most.
@@ -200,10 +202,5 @@ struct GridStructure {
   double largest_gap = 0;  ///< m, between a layer's bottom and the next one's top.
   std::vector<StructureRemark> report;
 };
-
-/// Recognises the structure of a grid. Deterministic; time and memory in proportion to the grid.
-/// @throws InputError with all options that are out of range, and where compartments are to be
-/// regions that the grid has not.
-GridStructure recognise_structure(const CornerPointGrid& grid, const StructureOptions& options);
 
 }  // namespace faultsim::corner_point

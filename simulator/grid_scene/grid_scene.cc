@@ -9,6 +9,7 @@
 #include "simulator/common/ranges.h"
 #include "simulator/common/text.h"
 #include "simulator/flow/cell_overlap.h"
+#include "simulator/grid_scene/line_maker.h"
 #include "simulator/grid_scene/mesh_size.h"
 
 namespace faultsim::grid_scene {

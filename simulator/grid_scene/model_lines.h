@@ -62,11 +62,4 @@ struct LineOptions {
   double n_cells = 100'000;   ///< tetrahedra, about.
 };
 
-/// Faults and outlines of a grid as lines that fit together: traces end at others, cross the
-/// outline at an angle and end a little outside of it, go on at tips; what cannot be drawn is left
-/// out. Every choice is appended to remarks.
-ModelLines model_lines(const corner_point::CornerPointGrid& grid,
-                       const corner_point::GridStructure& structure, const LineOptions& options,
-                       Remarks& remarks);
-
 }  // namespace faultsim::grid_scene

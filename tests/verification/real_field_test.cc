@@ -13,7 +13,7 @@
 #include "simulator/app/commands.h"
 #include "simulator/corner_point/column_map.h"
 #include "simulator/corner_point/corner_point_grid.h"
-#include "simulator/corner_point/grid_structure.h"
+#include "simulator/corner_point/structure_finder.h"
 #include "simulator/corner_point/straight_trace.h"
 #include "simulator/horizons/levels.h"
 #include "simulator/horizons/map_locator.h"

@@ -9,7 +9,7 @@
 
 #include "made_grid.h"
 #include "simulator/common/errors.h"
-#include "simulator/corner_point/grid_structure.h"
+#include "simulator/corner_point/structure_finder.h"
 
 namespace faultsim::corner_point {
 namespace {

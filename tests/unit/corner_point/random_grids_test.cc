@@ -13,7 +13,7 @@
 #include <set>
 
 #include "random_grid.h"
-#include "simulator/corner_point/grid_structure.h"
+#include "simulator/corner_point/structure_finder.h"
 
 namespace faultsim::corner_point {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "made_grid.h"
+#include "simulator/corner_point/structure_finder.h"
 
 namespace faultsim::corner_point {
 namespace {

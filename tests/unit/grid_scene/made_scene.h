@@ -1,5 +1,6 @@
 #pragma once
 
+#include "simulator/corner_point/structure_finder.h"
 #include "simulator/grid_scene/grid_scene.h"
 #include "tests/unit/corner_point/made_grid.h"
 

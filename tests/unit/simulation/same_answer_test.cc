@@ -10,7 +10,7 @@
 #include "simulator/common/text.h"
 #include "simulator/common/units.h"
 #include "simulator/corner_point/corner_point_grid.h"
-#include "simulator/corner_point/grid_structure.h"
+#include "simulator/corner_point/structure_finder.h"
 #include "simulator/flow/field_file.h"
 #include "simulator/grid_scene/grid_scene.h"
 #include "simulator/simulation/simulation.h"

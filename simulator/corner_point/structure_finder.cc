@@ -1,4 +1,4 @@
-#include "simulator/corner_point/grid_structure.h"
+#include "simulator/corner_point/structure_finder.h"
 
 #include <algorithm>
 #include <map>

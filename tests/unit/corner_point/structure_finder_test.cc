@@ -1,6 +1,6 @@
 // Grids made here with known faults, and what is recognised of them. Judges know the faults that
 // the grids were made with, and the corners; they share no code with the recognition.
-#include "simulator/corner_point/grid_structure.h"
+#include "simulator/corner_point/structure_finder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
