@@ -75,7 +75,7 @@ void Worker::take(const message::Work& work) {
       job.identity = one.identity;
       job.base = one.scene;
       job.changes = one.changes;
-      job.source = faultsim::concat(sources_.at(one.scene), "#case ", one.position);
+      job.source = sources_.at(one.scene);
       if (work.task.keep_fields != KeepFields::none) {
         job.fields_folder = faultsim::concat(work.task.fields_folder, '/', one.position);
         job.keep_fields = work.task.keep_fields;

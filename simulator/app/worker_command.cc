@@ -131,12 +131,10 @@ class Worker {
     const auto wanted = request["identity"].get<std::string>();
     const std::string identity = simulation_.identity();
     if (identity == wanted || has_identity(Inside::scene(simulation_).scene, wanted)) return;
-    throw InputError(
-        request.value("source", "case"),
-        concat("the scene has the identity ", identity.substr(0, 12), ", its case ",
-               wanted.substr(0, 12)),
-        "a file that it names, or the program, has changed since it was submitted; submit the "
-        "campaign again");
+    throw InputError(request.value("source", "case"),
+                     "the scene is not the one that was submitted: a file that it names, or the "
+                     "program, has changed since",
+                     "submit the campaign again");
   }
 
   void prepare(const json& run) {

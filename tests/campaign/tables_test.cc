@@ -112,7 +112,7 @@ TEST_F(Tables, ThatWereEditedInAnOldStoreRefuseTheCase) {
   EXPECT_FALSE(one.has_result) << "a result of another scene under this case's name";
   ASSERT_EQ(one.runs.size(), 1U);
   EXPECT_EQ(one.runs[0].status, "refused");
-  EXPECT_THAT(one.runs[0].reason, HasSubstr("the scene has the identity"));
+  EXPECT_THAT(one.runs[0].reason, HasSubstr("the scene is not the one that was submitted"));
   EXPECT_THAT(one.runs[0].reason, HasSubstr("submit the campaign again"));
   write_history(-100);
   EXPECT_EQ(faultsweep({"retry"}).code, 0);
