@@ -14,6 +14,7 @@
 #include "campaign/store/clock.h"
 #include "simulator/cache/operator_cache.h"
 #include "simulator/files/output_target.h"
+#include "simulator/scene/tiers.h"
 
 namespace faultsweep {
 
@@ -99,6 +100,8 @@ struct RankArguments {
   CertifyRequest certify = {};
 };
 
+std::string tier_name(const faultsim::Tier& tier) { return tier.name; }
+
 ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
   if (!arguments.why.empty()) {
     return answer_case(common, arguments.why, [&](const Store& store, const NamedCase& found) {
@@ -112,7 +115,7 @@ ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
   if (arguments.certify.n > 0) {
     CertifyRequest request = arguments.certify;
     request.ranking = arguments.request;
-    return certify(common, request);
+    return request.tier.empty() ? certify(common, request) : certify_at_tier(common, request);
   }
   const Store store = Store::open_reader(common.store);
   const CampaignInfo c = store.campaign(common.campaign, store.lacks_results());
@@ -337,6 +340,13 @@ void add_reading(Program& program) {
       ->check(CLI::PositiveNumber)
       ->check(not_nan())
       ->needs(certified);
+  command
+      ->add_option("--tier", a.certify.tier,
+                   "certify at this tier: run the first N cases by --by there, as campaign\n"
+                   "NAME-first-TIER, and say which come first and how surely")
+      ->check(CLI::IsMember(faultsim::mapped(faultsim::tiers(), tier_name)))
+      ->needs(certified)
+      ->excludes("--tolerance");
   add_workers(command, a.certify.n_workers, "of --certify; default: the cores available");
   add_renderings(command, program.common);
   command->footer(
@@ -346,6 +356,7 @@ void add_reading(Program& program) {
       "gas_storage\n"
       "  faultsweep rank my-sweep --why 17 --stage gas_storage\n"
       "  faultsweep rank my-sweep --by chi_bar --certify 20\n"
+      "  faultsweep rank my-sweep --by chi_bar --certify 20 --tier standard\n"
       "  faultsweep rank --list-metrics");
 
   auto [show_command, show_arguments] =

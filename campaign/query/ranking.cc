@@ -135,6 +135,7 @@ Store::RankingQuery ranking_query(const Store& store, const CampaignInfo& campai
     ranking.kinds = store.kinds(campaign.id, query);
   }
   if (!extensive.empty()) refuse_mixed(ranking.kinds, "--by", extensive);
+  ranking.extensive = extensive;
   ranking.by_unit = unit_of_scores(request.by, ranking.kinds, selection);
   return query;
 }

@@ -36,8 +36,9 @@ struct SlidingCounts {
 struct Ranking {
   CampaignInfo campaign;
   RankRequest request;
-  bool by_default = false;  ///< activated area, open area, M0, pressure margin, χ̄.
-  Store::Kinds kinds;       ///< of the cases that are ranked.
+  std::string extensive = {};  ///< the first area, potency or moment that it goes by; "" = none.
+  bool by_default = false;     ///< activated area, open area, M0, pressure margin, χ̄.
+  Store::Kinds kinds;          ///< of the cases that are ranked.
   /// The campaign has cases of both kinds and its own order compares areas or moments: only those
   /// in total are ranked.
   bool plane_strain_apart = false;

@@ -1,7 +1,10 @@
 // Sampled designs from the spec to results in the store: the real faultsweep under the real mpirun
 // with the real faultsim, in plane strain.
 #include <algorithm>
+#include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/campaign/campaign_fixture.h"
 
@@ -20,12 +23,17 @@ class Designs : public testing::CampaignTest {
   }
 
   /// Submits a design of the small field; what submit says of it.
-  json submit(const std::string& design, const nlohmann::ordered_json& operators = {}) {
+  json submit(const std::string& design, const nlohmann::ordered_json& operators = {},
+              const std::string& tier = "") {
     auto spec = nlohmann::ordered_json::parse(
         std::ifstream(std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/campaigns/small.json"));
     spec["base"] = std::string(FAULTSIM_SOURCE_DIR) + "/docs/examples/scenes/rotliegend.json";
     spec["design"] = nlohmann::ordered_json::parse(design);
     if (!operators.is_null()) spec["operators"] = operators;
+    if (!tier.empty()) {
+      spec["set"] = {{"/tier", tier}, {"/numerics/plane_strain", "on"}};
+      spec["name"] = "at-" + tier;
+    }
     const std::string file = (folder_ / "spec.json").string();
     std::ofstream(file) << spec.dump(1);
     const auto submitted = faultsweep({"submit", file, "--json"});
@@ -174,6 +182,51 @@ TEST_F(Designs, SamplesShareASurfaceWhateverIsKilledAndTheFirstAreCertified) {
   const CampaignInfo exact = store.campaign("small-exact");
   EXPECT_EQ(exact.n_complete(), 5);
   EXPECT_FALSE(store.stored_case(exact.id, "1").result.surface);
+}
+
+/// What is said of the first cases at another tier is what all of them there say.
+TEST_F(Designs, TheFirstCasesAreCertifiedAtAnotherTier) {
+  const std::string design = R"({"kind": "monte-carlo", "samples": 30, "parameters": {
+      "friction_angle": {"from": "30 deg", "to": "38 deg"},
+      "ratio_across": {"from": 0.74, "to": 0.82}}})";
+  for (const char* tier : {"screening", "demonstration"}) {
+    submit(design, {}, tier);
+    EXPECT_EQ(wait(start({"run", "--workers", "2"}), 300).code, 0);
+  }
+  const auto refused =
+      faultsweep({"rank", "at-screening", "--certify", "6", "--tier", "screening"});
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("the campaign has the tier screening"));
+  const auto certified = faultsweep({"rank", "at-screening", "--by", "chi_bar", "--certify", "6",
+                                     "--tier", "demonstration", "--json"});
+  EXPECT_EQ(certified.code, 0) << certified.err;
+  const json said = json::parse(certified.out);
+  ASSERT_EQ(said["first"].size(), 6u) << certified.out;
+  const auto scores = [&](const char* campaign) {
+    const auto ranked = faultsweep({"rank", campaign, "--by", "chi_bar", "--top", "0", "--json"});
+    EXPECT_EQ(ranked.code, 0) << ranked.err << ranked.out;
+    std::map<long, double> all;  // the design is the same, and so are the numbers of its cases
+    const json answer = json::parse(ranked.out);
+    for (const json& row : answer["cases"]) all[row["case"]] = row["score"];
+    return all;
+  };
+  const auto before = scores("at-screening"), after = scores("at-demonstration");
+  std::set<long> run;
+  double least = std::numeric_limits<double>::infinity();
+  for (const json& one : said["first"]) {
+    const long position = one["case"];
+    EXPECT_EQ(one["before"], before.at(position));
+    EXPECT_EQ(one["after"], after.at(position));
+    if (one["place"] <= said["certain"]) least = std::min(least, after.at(position));
+    run.insert(position);
+  }
+  EXPECT_GT(said["certain"], 0) << certified.out;
+  for (const auto& [position, score] : after) {
+    if (run.contains(position)) continue;
+    EXPECT_LE(before.at(position), said["next"]);
+    const double rise = score - before.at(position);
+    EXPECT_TRUE(rise > said["largest_rise"] || score < least) << position;
+  }
 }
 
 TEST_F(Designs, NestedSamplesAreTheSameInEachOuterRow) {
