@@ -14,7 +14,6 @@
 #include "campaign/store/clock.h"
 #include "simulator/cache/operator_cache.h"
 #include "simulator/files/output_target.h"
-#include "simulator/scene/tiers.h"
 
 namespace faultsweep {
 
@@ -99,8 +98,6 @@ struct RankArguments {
   bool list_metrics = false;
   CertifyRequest certify = {};
 };
-
-std::string tier_name(const faultsim::Tier& tier) { return tier.name; }
 
 ExitCode rank(const StoreArguments& common, const RankArguments& arguments) {
   if (!arguments.why.empty()) {
@@ -344,7 +341,7 @@ void add_reading(Program& program) {
       ->add_option("--tier", a.certify.tier,
                    "certify at this tier: run the first N cases by --by there, as campaign\n"
                    "NAME-first-TIER, and say which come first and how surely")
-      ->check(CLI::IsMember(faultsim::mapped(faultsim::tiers(), tier_name)))
+      ->check(CLI::IsMember(tier_names()))
       ->needs(certified)
       ->excludes("--tolerance");
   add_workers(command, a.certify.n_workers, "of --certify; default: the cores available");

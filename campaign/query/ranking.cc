@@ -171,6 +171,11 @@ Ranking make_ranking(const Store& store, const CampaignInfo& campaign, const Ran
 
 long Ranking::n_all() const { return std::reduce(n_rows.begin(), n_rows.end()); }
 
+std::vector<std::string> tier_names() {
+  return faultsim::mapped(faultsim::tiers(),
+                          [](const faultsim::Tier& tier) { return std::string(tier.name); });
+}
+
 std::string common_tier(const Store& store, const CampaignInfo& campaign) {
   std::string tier;
   const json spec = json::parse(store.spec_copies(campaign.id).resolved, nullptr, false);

@@ -74,6 +74,7 @@ std::vector<std::int64_t> cases_ranked_first(const Store& store, const CampaignI
 /// compartments in part, with the worst measured errors: what answers over them say. "" = none.
 std::string approximation_note(const Store& store, const CampaignInfo& campaign);
 
+std::vector<std::string> tier_names();
 /// The tier that all groups of a campaign have, without sizes of their own; "" = there is none.
 std::string common_tier(const Store& store, const CampaignInfo& campaign);
 /// What `faultsweep tradeoff` measured of the campaign's spec at the tier of its cases; nothing
