@@ -45,6 +45,7 @@ class Ranks {
 /// Its sum as linear algebra takes it; none where there is nothing to add. @pre ranks outlive it.
 inline SumOverRanks sum_over(const Ranks& ranks) {
   if (ranks.size() == 1) return nullptr;
+  // A view, by which the values change. NOLINTNEXTLINE(performance-unnecessary-value-param)
   return [&ranks](Eigen::Ref<Eigen::VectorXd> values) { ranks.sum(values); };
 }
 
