@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_map>
 
 #include "campaign/common/names.h"
@@ -165,14 +166,15 @@ TierCertificate tier_certificate(const Ranking& before, const std::vector<long>&
   certificate.n_without = std::ssize(before.rows) - std::ssize(all);
   if (positions_after.size() < all.size()) certificate.next = all[positions_after.size()]->score;
   std::unordered_map<long, const RankedCase*> found;
-  const std::vector<const RankedCase*> ranked = with_full_histories(after);
-  for (const RankedCase* row : ranked) found[row->position] = row;
+  for (const RankedCase* row : with_full_histories(after)) found[row->position] = row;
   for (std::size_t k = 0; k < positions_after.size(); ++k) {
     const auto at = found.find(positions_after[k]);
     certificate.cases.push_back({all[k], at == found.end() ? nullptr : at->second});
   }
-  const auto place = [&](const CertifiedCase& one) {
-    return std::ranges::find(ranked, one.after) - ranked.begin();
+  const double sign = certificate.ascending ? 1 : -1;
+  const auto place = [sign](const CertifiedCase& one) {
+    return one.after == nullptr ? std::numeric_limits<double>::infinity()
+                                : sign * *one.after->score;
   };
   std::ranges::stable_sort(certificate.cases, {}, place);
   return certificate;

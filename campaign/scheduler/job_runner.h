@@ -14,7 +14,7 @@ struct Job {
   std::int64_t base = 0;  ///< its base scene, which the runner holds.
   std::string changes;    ///< of the base scene: a JSON object, pointer -> value.
   std::string source;     ///< for messages and relative paths: "sweep/scene.json"; the same for all
-                       ///< cases, so that what is wrong with all of them is said alike.
+                          ///< cases, so that what is wrong with all of them is said alike.
   std::string fields_folder;  ///< where its fault fields go; "" = they are not kept.
   KeepFields keep_fields = KeepFields::none;  ///< which load steps of them.
   std::string identity = "";  ///< the simulator refuses a scene with another one; "" = any.
